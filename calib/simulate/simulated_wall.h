@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "calib/simulate/rig.h"
+#include "devices/camera/camera.h"
+#include "devices/camera/operator.h"
+#include "devices/image/image.h"
+#include "devices/projector/projector.h"
+
+namespace pixelflex::calib {
+
+/// Ray geometry of a screen; planar now, the door for curved ones.
+class Screen {
+ public:
+  Screen() = default;
+  virtual ~Screen() = default;
+  Screen(const Screen&) = delete;
+  Screen& operator=(const Screen&) = delete;
+  /// Where a ray from `origin` along `direction` meets the screen, in room coordinates; none when it misses.
+  [[nodiscard]] virtual std::optional<glm::dvec3> hit(glm::dvec3 origin, glm::dvec3 direction) const = 0;
+  [[nodiscard]] virtual glm::dvec2 wallFromRoom(glm::dvec3 point) const = 0;
+  [[nodiscard]] virtual glm::dvec3 roomFromWall(glm::dvec2 pointInWall) const = 0;
+  [[nodiscard]] virtual glm::dvec3 normal(glm::dvec2 pointInWall) const = 0;  // unit, towards the audience
+};
+
+/// A room with a screen, projectors, a camera and a person, computed physically: frames become linear radiance on the
+/// screen (response, vignetting, lit area, defocus, leak), add up, and the camera integrates them (ambient light,
+/// exposure, point spread, shot and read noise, quantisation). It shares no distortion or homography code with the
+/// estimators. Deterministic for a rig's seed and the sequence of photographs. Thread-bound.
+class SimulatedWall {
+ public:
+  explicit SimulatedWall(Rig rig);
+  ~SimulatedWall();
+  SimulatedWall(const SimulatedWall&) = delete;
+  SimulatedWall& operator=(const SimulatedWall&) = delete;
+
+  [[nodiscard]] const Rig& rig() const;
+
+  /// The devices; they live as long as the wall.
+  [[nodiscard]] devices::Camera& camera();
+  [[nodiscard]] std::size_t projectorCount() const;
+  [[nodiscard]] devices::Projector& projector(std::size_t index);
+  [[nodiscard]] devices::Operator& person();
+
+  // Ground truth, for tests and for what the audience sees; never for calibration.
+
+  /// Where the light of a projector's point lands; none when it misses the screen's plane.
+  [[nodiscard]] std::optional<glm::dvec2> wallFromProjector(std::size_t index, glm::dvec2 pointInProjector) const;
+  [[nodiscard]] std::optional<glm::dvec2> projectorFromWall(std::size_t index, glm::dvec2 pointInWall) const;
+  [[nodiscard]] std::optional<glm::dvec2> cameraFromWall(glm::dvec2 pointInWall) const;
+  /// Linear light of one projector per device code, relative: response, gain and leak of a channel.
+  [[nodiscard]] double light(std::size_t index, int channel, double code01) const;
+  /// Radiance on the wall of a projector's full white at a point of its frame, relative to the rig's brightest.
+  [[nodiscard]] double radiance(std::size_t index, glm::dvec2 pointInProjector) const;
+
+  /// What the audience sees, straight on, sRGB: the wall rectangle from topLeft to bottomRight at `size`, all
+  /// projectors showing `frames` (same order; an empty image is black). Exposed so that `white` (relative radiance;
+  /// 0: chosen from the rig) becomes 255.
+  [[nodiscard]] devices::Image8 audience(const std::vector<devices::Image8>& frames, glm::dvec2 topLeft,
+                                         glm::dvec2 bottomRight, devices::Size size, double white = 0) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pixelflex::calib

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/image/size.h"
+
+namespace pixelflex::calib {
+
+/// A pinhole camera with Brown's distortion (the contract's file order: radial and tangential apart). Pixel coordinates
+/// have their origin at the corner of the top-left pixel, so cx is half a pixel more than OpenCV's.
+struct CameraIntrinsics {
+  devices::Size size;
+  double fx = 0, fy = 0, cx = 0, cy = 0;
+  std::array<double, 3> radial{};
+  std::array<double, 2> tangential{};
+  double rmsPx = 0;  // reprojection error of the checkerboard corners
+  int photos = 0;
+  bool operator==(const CameraIntrinsics&) const = default;
+};
+
+/// The collineation C of the report: undistorted camera pixel to wall (equation 6).
+struct SurfaceFit {
+  std::array<double, 9> wallFromCamera{1, 0, 0, 0, 1, 0, 0, 0, 1};  // row major
+  double rms = 0;                                                   // wall units, over the fiducials
+  bool operator==(const SurfaceFit&) const = default;
+};
+
+struct Display {
+  double left = 0, top = 0, right = 0, bottom = 0;  // wall units
+  devices::Size resolution;                         // the desktop that fills it
+  bool operator==(const Display&) const = default;
+};
+
+/// One measured correspondence.
+struct Sample {
+  glm::dvec2 pointInProjector{0, 0};
+  glm::dvec2 pointInWall{0, 0};
+  bool operator==(const Sample&) const = default;
+};
+
+/// Homography and Brown lens (calibration reference 1.6). A wall point w goes to h = projectorFromWall * w (normalised
+/// plane), through Brown's polynomial about the lens centre, to pixel = centre + scale * distorted.
+struct ProjectorModel {
+  std::array<double, 9> projectorFromWall{1, 0, 0, 0, 1, 0, 0, 0, 1};  // row major, into normalised coordinates
+  glm::dvec2 centre{0, 0};                                             // projector pixels
+  double scale = 1;                                                    // projector pixels per normalised unit
+  std::array<double, 3> radial{};
+  std::array<double, 2> tangential{};
+  bool operator==(const ProjectorModel&) const = default;
+};
+
+/// How well the model explains the samples it was fitted to, in projector pixels.
+struct FitQuality {
+  double rms = 0, p95 = 0, maximum = 0;
+  int found = 0;  // blobs located and identified
+  int shown = 0;
+  bool operator==(const FitQuality&) const = default;
+};
+
+struct ProjectorCalibration {
+  std::string name;
+  devices::Size resolution;
+  std::vector<Sample> samples;
+  ProjectorModel model;
+  FitQuality quality;
+  std::optional<std::string> alpha;     // 16-bit PNG of the projector's resolution, relative to the wall's folder
+  std::optional<std::string> response;  // 256 rows value,red,green,blue; normalised light, relative to the wall's folder
+  std::optional<glm::ivec2> flatAt;     // an exact screen: shows desktop pixels one to one from here
+  bool operator==(const ProjectorCalibration&) const = default;
+};
+
+/// calibration.yaml: what was measured. Parts are absent until their step has run.
+struct Calibration {
+  std::optional<CameraIntrinsics> camera;
+  std::optional<SurfaceFit> surface;
+  std::optional<Display> display;
+  std::vector<ProjectorCalibration> projectors;
+  std::map<std::string, std::string> steps;  // step name to a fingerprint of what it was computed from
+
+  [[nodiscard]] const ProjectorCalibration* find(const std::string& name) const {
+    for (const auto& projector : projectors) {
+      if (projector.name == name) return &projector;
+    }
+    return nullptr;
+  }
+  bool operator==(const Calibration&) const = default;
+};
+
+}  // namespace pixelflex::calib

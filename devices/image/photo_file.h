@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+#include "devices/image/image.h"
+
+namespace pixelflex::devices {
+
+/// Reads a photograph: PNG or JPEG by content, always three channels (grey is spread, alpha dropped). A truncated or
+/// damaged JPEG is an error, not a grey rest. Throws ImageError naming the file.
+[[nodiscard]] Image8 readPhoto(const std::filesystem::path& path);
+
+}  // namespace pixelflex::devices
