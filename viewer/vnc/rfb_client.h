@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/tiles/region.h"
+#include "viewer/vnc/input_queue.h"
+#include "viewer/vnc/session.h"
+#include "viewer/vnc/update_publisher.h"
+#include "viewer/vnc/waiting.h"
+
+namespace pixelflex::viewer {
+
+/// The protocol: libvncclient on one connected socket, on one thread. Calls block until the server has said enough;
+/// shutting the socket down from another thread ends them. Whatever goes wrong throws SessionError.
+class RfbClient {
+ public:
+  /// `socket` stays the caller's and must outlive the client.
+  RfbClient(int socket, const SessionOptions& options);
+  ~RfbClient();
+  RfbClient(const RfbClient&) = delete;
+  RfbClient& operator=(const RfbClient&) = delete;
+
+  /// From the server's first byte to the request for the first picture. Throws SessionStopped too.
+  void handshake(Deadline deadline, const Signal& stop);
+  [[nodiscard]] std::string desktopName() const;
+  [[nodiscard]] devices::Size desktop() const;
+
+  /// True while bytes of a next message were read from the socket already: poll() does not see those.
+  [[nodiscard]] bool hasBufferedBytes() const;
+  /// Reads one message of the server.
+  void handleMessage();
+  /// What the messages brought, oldest first: all but Connected and Closed.
+  [[nodiscard]] std::vector<SessionEvent> takeEvents();
+  /// Once per whole update: what it changed. The view stays valid until the next message.
+  [[nodiscard]] std::optional<Region> takeFinishedUpdate();
+  [[nodiscard]] FrameView frame() const;
+
+  void send(const Input& input);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pixelflex::viewer

@@ -1,0 +1,61 @@
+#include "viewer/vnc/rfb_messages.h"
+
+#include <bit>
+
+namespace pixelflex::viewer {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the pixel format below is asked for as little-endian");
+
+enum Encoding : std::int32_t {
+  kCopyRect = 1,
+  kTight = 7,
+  kZrle = 16,
+  kQuality8 = -24,
+  kDesktopSize = -223,
+  kLastRect = -224,
+  kPointerPos = -232,
+  kRichCursor = -239,
+  kXCursor = -240,
+  kCompressLevel1 = -255,
+};
+
+void append(std::vector<std::uint8_t>& message, std::uint32_t value, int bytes) {
+  for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) {
+    message.push_back(static_cast<std::uint8_t>(value >> shift));
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> setPixelFormatMessage() {
+  return {0,  0,   0,  0,            // type, padding
+          32, 24,  0,  1,            // bits, depth, little-endian, true colour
+          0,  255, 0,  255, 0, 255,  // largest red, green, blue
+          0,  8,   16, 0,   0, 0};   // shifts of red, green, blue; padding
+}
+
+std::vector<std::uint8_t> setEncodingsMessage(bool lossless) {
+  // No ExtendedDesktopSize: libvncclient ignores it for screens with id 0 and then refuses the next rectangle. No raw:
+  // every server falls back to it anyway, but libvncserver sends it in whole rows that overrun its buffer beyond 8192
+  // pixels. Nothing else that libvncclient decodes: each decoder is one more door for a hostile server.
+  // Compression level 1 also switches off TigerVNC's search for pixels that did not change.
+  std::vector<std::int32_t> encodings{kTight,
+                                      kCopyRect,
+                                      kZrle,
+                                      kCompressLevel1,
+                                      kLastRect,
+                                      kDesktopSize,
+                                      kCursorWithAlphaEncoding,
+                                      kRichCursor,
+                                      kXCursor,
+                                      kPointerPos,
+                                      kVmwareCursorPositionEncoding};
+  if (!lossless) encodings.push_back(kQuality8);
+  std::vector<std::uint8_t> message{2, 0};  // type, padding
+  append(message, static_cast<std::uint32_t>(encodings.size()), 2);
+  for (const std::int32_t encoding : encodings) append(message, static_cast<std::uint32_t>(encoding), 4);
+  return message;
+}
+
+}  // namespace pixelflex::viewer

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/tiles/frame_belt.h"
+#include "viewer/vnc/server_address.h"
+#include "viewer/vnc/session_event.h"
+
+namespace pixelflex::viewer {
+
+/// The largest desktop, each way: TigerVNC's own limit, and the most that libvncclient's 31-bit sizes can hold.
+inline constexpr int kMaxDesktopExtent = 16384;
+
+struct SessionOptions {
+  ServerAddress server;
+  /// For servers that ask for one; VNC's own scheme looks at its first eight characters only.
+  std::optional<std::string> password;
+  /// Drops pointer, keys and clipboard before they reach the server.
+  bool viewOnly = false;
+  /// Keeps other viewers connected.
+  bool shared = true;
+  /// False: the server may send JPEG, which saves bandwidth and alters pixels.
+  bool lossless = true;
+  /// For the connection, and once more for the handshake.
+  std::chrono::milliseconds connectTimeout{10'000};
+};
+
+/// A connection to a VNC server, on a thread of its own. That thread connects, decodes into one linear frame buffer and
+/// puts each whole server update on the belt; it is the only one that reads or writes the socket. Every member may be
+/// called from any thread. Nothing throws because of the server: whatever ends the connection arrives as a Closed
+/// event. The destructor stops and waits for the thread, a fraction of a second at most, whatever the server does.
+class Session {
+ public:
+  /// Starts at once. `belt` must outlive the session. `wake` is called from the session's thread after each new event
+  /// (the belt has its own) and must not call the session's destructor.
+  Session(SessionOptions options, FrameBelt& belt, std::function<void()> wake);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// The events since the last call, oldest first.
+  [[nodiscard]] std::vector<SessionEvent> takeEvents();
+
+  /// Desktop pixels; bit 0 of `buttons` is the left button, bits 3 and 4 the wheel. A motion that has not been sent yet
+  /// is replaced by the next one with the same buttons. Outside the desktop the position is clamped.
+  void sendPointer(int x, int y, std::uint8_t buttons);
+  /// An X11 keysym.
+  void sendKey(std::uint32_t keysym, bool down);
+  /// UTF-8; what Latin-1 cannot hold becomes a question mark. Texts beyond 256 KiB are cut there.
+  void sendClipboard(std::string text);
+
+  /// Ends the connection without a Closed event and returns at once. Input is ignored from here on.
+  void stop();
+
+ private:
+  class Worker;
+  std::unique_ptr<Worker> worker_;
+};
+
+}  // namespace pixelflex::viewer

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "devices/image/size.h"
+
+namespace pixelflex::viewer {
+
+/// The handshake is done; the first picture follows on the belt.
+struct Connected {
+  std::string name;  // as the server calls its desktop, UTF-8
+  devices::Size size;
+  bool operator==(const Connected&) const = default;
+};
+
+struct Resized {
+  devices::Size size;
+  bool operator==(const Resized&) const = default;
+};
+
+/// The pointer's picture. The server never draws it into the desktop: whoever shows the desktop draws it on top.
+struct CursorShape {
+  devices::Size size;              // 0x0: the pointer is hidden
+  int hotX = 0, hotY = 0;          // the pixel that points
+  std::vector<std::uint8_t> rgba;  // row by row, four bytes a pixel, alpha straight (not premultiplied)
+  bool operator==(const CursorShape&) const = default;
+};
+
+/// The pointer was moved by somebody else, in desktop pixels.
+struct CursorMoved {
+  int x = 0, y = 0;
+  bool operator==(const CursorMoved&) const = default;
+};
+
+struct Bell {
+  bool operator==(const Bell&) const = default;
+};
+
+/// Text was copied on the desktop.
+struct Clipboard {
+  std::string text;  // UTF-8
+  bool operator==(const Clipboard&) const = default;
+};
+
+enum class CloseKind {
+  kUnreachable,     // no such host, nothing listens there, no answer
+  kNotVnc,          // something answers, but not a VNC server
+  kAuthentication,  // a password is needed or wrong, or no common security type
+  kTooLarge,        // the desktop's size is not supported
+  kLost,            // the server or the network ended the connection
+  kProtocol,        // the server sent something that makes no sense
+};
+
+/// The last event of a session.
+struct Closed {
+  CloseKind kind = CloseKind::kLost;
+  std::string message;  // for people: what is wrong, where, what to do
+  bool operator==(const Closed&) const = default;
+};
+
+using SessionEvent = std::variant<Connected, Resized, CursorShape, CursorMoved, Bell, Clipboard, Closed>;
+
+}  // namespace pixelflex::viewer
