@@ -14,8 +14,8 @@ namespace pixelflex::viewer {
 /// A corner of the warp mesh. The desktop position carries a projective weight w: the fragment's position is
 /// (uw, vw) / w, exact under keystone where affine interpolation is not (calibration reference 2).
 struct WarpVertex {
-  float x = 0, y = 0;            // projector pixels
-  float uw = 0, vw = 0, w = 1;   // desktop pixels times w
+  float x = 0, y = 0;           // projector pixels
+  float uw = 0, vw = 0, w = 1;  // desktop pixels times w
   bool operator==(const WarpVertex&) const = default;
 };
 
@@ -44,7 +44,7 @@ struct OutputPlan {
   devices::Size resolution;
   devices::Size desktop;
   WarpMesh mesh;
-  devices::Image16 alpha;                            // one channel of `resolution`, 65535 = 1; empty: 1 everywhere
+  devices::Image16 alpha;                             // one channel of `resolution`, 65535 = 1; empty: 1 everywhere
   std::array<std::vector<float>, 3> inverseResponse;  // per channel: device code 0..1 for light^(1/2.2), evenly spaced;
                                                       // empty: sRGB
   DesktopTransfer transfer = DesktopTransfer::kSrgb;

@@ -1,0 +1,84 @@
+#include "devices/display/gl_program.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+namespace pixelflex::devices {
+namespace {
+
+constexpr std::string_view kVersion = "#version 450 core\n";
+
+GlShader compile(std::string_view name, GLenum stage, const ShaderPieces& pieces) {
+  auto shader = GlShader::create(stage);
+  std::vector<const GLchar*> texts{kVersion.data()};
+  std::vector<GLint> lengths{static_cast<GLint>(kVersion.size())};
+  for (const auto piece : pieces) {
+    texts.push_back(piece.data());
+    lengths.push_back(static_cast<GLint>(piece.size()));
+  }
+  glShaderSource(shader.get(), static_cast<GLsizei>(texts.size()), texts.data(), lengths.data());
+  glCompileShader(shader.get());
+  GLint compiled = GL_FALSE;
+  glGetShaderiv(shader.get(), GL_COMPILE_STATUS, &compiled);
+  if (compiled == GL_TRUE) return shader;
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  glGetShaderInfoLog(shader.get(), static_cast<GLsizei>(log.size()), &length, log.data());
+  log.resize(static_cast<std::size_t>(length));
+  const auto* const kind = stage == GL_VERTEX_SHADER ? "vertex" : "fragment";
+  throw DisplayError(fmt::format("the {} shader of '{}' does not compile:\n{}", kind, name, log));
+}
+
+void link(std::string_view name, GlName program) {
+  glLinkProgram(program);
+  GLint linked = GL_FALSE;
+  glGetProgramiv(program, GL_LINK_STATUS, &linked);
+  if (linked == GL_TRUE) return;
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), &length, log.data());
+  log.resize(static_cast<std::size_t>(length));
+  throw DisplayError(fmt::format("the shaders of '{}' do not link:\n{}", name, log));
+}
+
+}  // namespace
+
+GlProgram::GlProgram(std::string_view name, const ShaderPieces& vertex, const ShaderPieces& fragment)
+    : program_(GlProgramName::create()) {
+  const auto vertexShader = compile(name, GL_VERTEX_SHADER, vertex);
+  const auto fragmentShader = compile(name, GL_FRAGMENT_SHADER, fragment);
+  glAttachShader(program_.get(), vertexShader.get());
+  glAttachShader(program_.get(), fragmentShader.get());
+  link(name, program_.get());
+  glDetachShader(program_.get(), vertexShader.get());
+  glDetachShader(program_.get(), fragmentShader.get());
+}
+
+void GlProgram::use() const {
+  glUseProgram(program_.get());
+}
+
+int GlProgram::location(const char* uniform) const {
+  return glGetUniformLocation(program_.get(), uniform);
+}
+
+void GlProgram::set(const char* uniform, int value) const {
+  glProgramUniform1i(program_.get(), location(uniform), value);
+}
+void GlProgram::set(const char* uniform, float value) const {
+  glProgramUniform1f(program_.get(), location(uniform), value);
+}
+void GlProgram::set(const char* uniform, glm::vec2 value) const {
+  glProgramUniform2f(program_.get(), location(uniform), value.x, value.y);
+}
+void GlProgram::set(const char* uniform, glm::vec4 value) const {
+  glProgramUniform4f(program_.get(), location(uniform), value.x, value.y, value.z, value.w);
+}
+void GlProgram::set(const char* uniform, glm::ivec2 value) const {
+  glProgramUniform2i(program_.get(), location(uniform), value.x, value.y);
+}
+void GlProgram::set(const char* uniform, glm::ivec3 value) const {
+  glProgramUniform3i(program_.get(), location(uniform), value.x, value.y, value.z);
+}
+
+}  // namespace pixelflex::devices

@@ -1,0 +1,18 @@
+# cmake -DOUTPUT=FILE -DSHADERS=A;B -P embed.cmake: writes a header with each shader file as a string constant, so that no
+# program looks for shaders at run time. warp.frag becomes kWarpFrag.
+set(text "#pragma once\n\n#include <string_view>\n\nnamespace pixelflex::viewer::shaders {\n\n")
+foreach(shader ${SHADERS})
+  get_filename_component(name ${shader} NAME)
+  string(REGEX REPLACE "[._]" ";" words ${name})
+  set(constant "k")
+  foreach(word ${words})
+    string(SUBSTRING ${word} 0 1 initial)
+    string(SUBSTRING ${word} 1 -1 rest)
+    string(TOUPPER ${initial} initial)
+    string(APPEND constant "${initial}${rest}")
+  endforeach()
+  file(READ ${shader} source)
+  string(APPEND text "inline constexpr std::string_view ${constant} = R\"glsl(${source})glsl\";\n\n")
+endforeach()
+string(APPEND text "}  // namespace pixelflex::viewer::shaders\n")
+file(WRITE ${OUTPUT} "${text}")

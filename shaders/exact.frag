@@ -1,0 +1,18 @@
+// A screen that shows desktop pixels one to one: no filter, no arithmetic on colours.
+uniform sampler2DArray desktop;
+uniform ivec2 desktopSize;
+uniform ivec3 tiling;   // tiles in a row, stride, apron
+uniform ivec2 exactAt;  // the desktop pixel shown by the screen's top-left pixel
+
+layout(location = 0) out vec4 device;
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy) + exactAt;
+  if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, desktopSize))) {
+    device = vec4(0.0, 0.0, 0.0, 1.0);
+    return;
+  }
+  ivec2 tile = ivec2((vec2(pixel) + 0.5) / float(tiling.y));
+  ivec3 texel = ivec3(pixel - tile * tiling.y + tiling.z, tile.y * tiling.x + tile.x);
+  device = vec4(withCursorTexel(texelFetch(desktop, texel, 0).rgb, pixel), 1.0);
+}

@@ -1,0 +1,190 @@
+#include "viewer/renderer/wall_renderer.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "viewer/renderer/renderer_error.h"
+
+namespace pixelflex::viewer {
+namespace {
+
+/// Adds the time until its end to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(std::chrono::nanoseconds& sum) : sum_(sum) {}
+  ~Stopwatch() { sum_ += std::chrono::steady_clock::now() - begin_; }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  std::chrono::nanoseconds& sum_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+void prepareState() {
+  glDisable(GL_DITHER);  // the driver's own; ours is in the shader
+  glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  glEnable(GL_SCISSOR_TEST);
+}
+
+}  // namespace
+
+WallRenderer::WallRenderer(devices::GlContext& context, RendererOptions options)
+    : context_(context), options_(options) {
+  context_.makeCurrent();
+}
+
+WallRenderer::~WallRenderer() {
+  try {
+    context_.makeCurrent();
+  } catch (const devices::DisplayError&) {
+    // The context is gone and its objects with it; deleting their names is then without effect.
+    return;
+  }
+}
+
+bool WallRenderer::setPlans(const std::vector<OutputPlan>& plans) {
+  if (plans.empty()) throw RendererError("nothing to draw: no output has a plan");
+  const auto size = plans.front().desktop;
+  if (size.width <= 0 || size.height <= 0) throw RendererError("the desktop of the plans is empty");
+  context_.makeCurrent();
+  const TileLayout layout(size);
+  std::vector<Output> outputs;
+  for (const auto& plan : plans) {
+    if (plan.desktop != size) {
+      throw RendererError(fmt::format("output '{}' shows a desktop of {}x{}, output '{}' one of {}x{}", plan.name,
+                                      plan.desktop.width, plan.desktop.height, plans.front().name, size.width,
+                                      size.height));
+    }
+    outputs.emplace_back(plan, layout, options_.measure);
+  }
+  const bool lost = !desktop_ || desktop_->layout().desktop() != size;
+  if (lost) {
+    if (desktop_) bytesOfOldDesktops_ += desktop_->bytesUploaded();
+    outputs_.clear();
+    desktop_.reset();  // first, so that two desktops never exist at once
+    desktop_.emplace(size, options_.measure ? TexelFormat::kRgba32F : TexelFormat::kRgba8);
+    updateOpen_ = false;
+  }
+  outputs_ = std::move(outputs);
+  return lost;
+}
+
+void WallRenderer::markWhere(const Box& desktopBox) {
+  if (desktopBox.empty()) return;
+  const Stopwatch stopwatch(stats_.markTime);
+  for (auto& output : outputs_) output.mark(desktopBox);
+}
+
+void WallRenderer::upload(const Batch& batch) {
+  assert(desktop_ && !options_.measure);
+  updateOpen_ = !batch.completesUpdate;
+  if (batch.boxes.empty()) return;
+  context_.makeCurrent();
+  {
+    const Stopwatch stopwatch(stats_.uploadTime);
+    desktop_->upload(batch.boxes, batch.pixels);
+    stats_.boxesUploaded += batch.boxes.size();
+  }
+  for (const auto& box : batch.boxes) markWhere(box);
+}
+
+void WallRenderer::uploadDesktop(const devices::ImageF& desktop) {
+  assert(desktop_ && options_.measure && desktop.channels() == 4);
+  context_.makeCurrent();
+  const Box whole = boxOf(desktop.size());
+  desktop_->upload(std::span(&whole, 1), std::as_bytes(desktop.samples()));
+  markWhere(whole);
+}
+
+template <class Change>
+void WallRenderer::changeCursor(const Change& change) {
+  const auto before = cursor_.box();
+  change();
+  markWhere(before);
+  markWhere(cursor_.box());
+}
+
+void WallRenderer::setCursor(const devices::Image8& image, glm::ivec2 hotspot) {
+  context_.makeCurrent();
+  changeCursor([&] { cursor_.setImage(image, hotspot); });
+}
+
+void WallRenderer::moveCursor(glm::ivec2 position) {
+  changeCursor([&] { cursor_.moveTo(position); });
+}
+
+void WallRenderer::showCursor(bool shown) {
+  changeCursor([&] { cursor_.show(shown); });
+}
+
+void WallRenderer::markAll() {
+  for (auto& output : outputs_) output.markAll();
+}
+
+bool WallRenderer::needsDraw() const {
+  return !updateOpen_ && std::any_of(outputs_.begin(), outputs_.end(), [](const auto& o) { return o.marked(); });
+}
+
+std::vector<std::size_t> WallRenderer::draw() {
+  std::vector<std::size_t> drawn;
+  if (!needsDraw()) return drawn;
+  const Stopwatch stopwatch(stats_.drawTime);
+  context_.makeCurrent();
+  prepareState();
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    if (!outputs_[i].marked()) continue;
+    stats_.pixelsDrawn += outputs_[i].draw(*desktop_, cursor_, programs_);
+    drawn.push_back(i);
+  }
+  glDisable(GL_SCISSOR_TEST);
+  glFinish();  // another context may show the frames next
+  ++stats_.frames;
+  stats_.outputsDrawn += drawn.size();
+  return drawn;
+}
+
+const std::string& WallRenderer::outputName(std::size_t output) const {
+  return outputs_.at(output).name();
+}
+
+devices::Size WallRenderer::outputResolution(std::size_t output) const {
+  return outputs_.at(output).resolution();
+}
+
+devices::GlName WallRenderer::outputTexture(std::size_t output) const {
+  return outputs_.at(output).texture();
+}
+
+devices::Image8 WallRenderer::readOutput(std::size_t output) {
+  const Stopwatch stopwatch(stats_.readTime);
+  context_.makeCurrent();
+  return outputs_.at(output).read();
+}
+
+devices::ImageF WallRenderer::readOutputFloat(std::size_t output) {
+  const Stopwatch stopwatch(stats_.readTime);
+  context_.makeCurrent();
+  return outputs_.at(output).readFloat();
+}
+
+devices::Image8 WallRenderer::readDesktop() {
+  assert(desktop_);
+  const Stopwatch stopwatch(stats_.readTime);
+  context_.makeCurrent();
+  return desktop_->read();
+}
+
+RenderStats WallRenderer::stats() const {
+  auto stats = stats_;
+  stats.bytesUploaded = bytesOfOldDesktops_ + (desktop_ ? desktop_->bytesUploaded() : 0);
+  return stats;
+}
+
+}  // namespace pixelflex::viewer
