@@ -24,8 +24,8 @@ struct Pose {
 
 /// Pinhole with Brown distortion in the usual sense: a normalised ray is distorted, then scaled and shifted.
 struct Optics {
-  double focal = 0;                  // pixels
-  glm::dvec2 principal{0, 0};        // pixels from the top-left corner; off the middle is lens shift
+  double focal = 0;            // pixels
+  glm::dvec2 principal{0, 0};  // pixels from the top-left corner; off the middle is lens shift
   std::array<double, 3> radial{};
   std::array<double, 2> tangential{};
   bool operator==(const Optics&) const = default;
@@ -46,9 +46,9 @@ struct SimulatedProjectorSpec {
   Pose pose;
   Optics optics;
   Response response;
-  double lumens = 1500;       // sets radiance together with the lit area
-  double vignetting = 0.3;    // 0..1: light lost in the frame's corners
-  double defocus = 0.5;       // sigma of the blur, projector pixels
+  double lumens = 1500;     // sets radiance together with the lit area
+  double vignetting = 0.3;  // 0..1: light lost in the frame's corners
+  double defocus = 0.5;     // sigma of the blur, projector pixels
   bool operator==(const SimulatedProjectorSpec&) const = default;
 };
 
@@ -56,11 +56,11 @@ struct SimulatedCameraSpec {
   devices::Size size{1920, 1080};
   Pose pose;
   Optics optics;
-  double blur = 0.6;           // sigma of the point spread, camera pixels
+  double blur = 0.6;  // sigma of the point spread, camera pixels
   double vignetting = 0.2;
-  double fullWell = 20000;     // electrons at full scale: sets the shot noise
-  double readNoise = 6;        // electrons
-  double gamma = 1.0;          // photographs are linear by default; 2.2 is a camera's JPEG
+  double fullWell = 20000;  // electrons at full scale: sets the shot noise
+  double readNoise = 6;     // electrons
+  double gamma = 1.0;       // photographs are linear by default; 2.2 is a camera's JPEG
   bool operator==(const SimulatedCameraSpec&) const = default;
 };
 
@@ -73,9 +73,9 @@ struct SimulatedMarker {
 };
 
 struct Room {
-  double dark = 0.002;        // ambient light with the lights out, relative to a lit projector's typical white
-  double lit = 0.35;          // with the lights on
-  double gradient = 0.3;      // how uneven the room light is across the screen, 0..1
+  double dark = 0.002;    // ambient light with the lights out, relative to a lit projector's typical white
+  double lit = 0.35;      // with the lights on
+  double gradient = 0.3;  // how uneven the room light is across the screen, 0..1
   bool operator==(const Room&) const = default;
 };
 

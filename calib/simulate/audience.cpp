@@ -1,0 +1,80 @@
+#include "calib/simulate/audience.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/simulate/light_map.h"
+#include "calib/simulate/parallel.h"
+#include "calib/simulate/room_raster.h"
+
+namespace pixelflex::calib {
+
+namespace {
+
+using devices::Image8;
+using devices::ImageF;
+
+constexpr int kLatticeStep = 4;
+constexpr std::size_t kCurveSteps = 16384;
+
+/// sRGB codes of kCurveSteps + 1 levels of light.
+const std::vector<std::uint8_t>& srgbCurve() {
+  static const std::vector<std::uint8_t> curve = [] {
+    std::vector<std::uint8_t> codes(kCurveSteps + 1);
+    for (std::size_t i = 0; i <= kCurveSteps; ++i) {
+      const double light = static_cast<double>(i) / static_cast<double>(kCurveSteps);
+      const double code = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+      codes[i] = static_cast<std::uint8_t>(std::lround(255 * code));
+    }
+    return codes;
+  }();
+  return curve;
+}
+
+void addProjector(ImageF& radiance, const LightMap& map, const LightImage& image) {
+  if (map.box().empty()) return;
+  const ImageF light = map.render(image);
+  for (int y = 0; y < light.height(); ++y) {
+    const auto from = light.row(y);
+    const auto to = radiance.row(y + map.box().y0).subspan(3 * static_cast<std::size_t>(map.box().x0));
+    for (std::size_t i = 0; i < from.size(); ++i) to[i] += from[i];
+  }
+}
+
+Image8 develop(const ImageF& radiance, const RoomRaster& room, double ambient, double white) {
+  Image8 picture(radiance.size(), 3);
+  const auto& curve = srgbCurve();
+  const auto scale = static_cast<float>(1 / white);
+  inTwoHalves(picture.height(), [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      const auto light = radiance.row(y);
+      const auto out = picture.row(y);
+      for (std::size_t i = 0; i < out.size(); ++i) {
+        const float total =
+            light[i] * room.reflectance.row(y)[i / 3] + static_cast<float>(ambient) * room.ambient.row(y)[i / 3];
+        const float level = std::clamp(total * scale, 0.0F, 1.0F);
+        out[i] = curve[static_cast<std::size_t>(level * static_cast<float>(kCurveSteps) + 0.5F)];
+      }
+    }
+  });
+  return picture;
+}
+
+}  // namespace
+
+Image8 composeAudience(const Stage& stage, const std::vector<Image8>& frames, glm::dvec2 topLeft,
+                       glm::dvec2 bottomRight, devices::Size size, double white) {
+  const AudienceView view(topLeft, bottomRight, size);
+  ImageF radiance(size, 3);
+  for (std::size_t i = 0; i < stage.lights().size(); ++i) {
+    const auto& light = stage.lights()[i];
+    const bool black = i >= frames.size() || frames[i].empty();
+    const Image8 frame = black ? Image8(light.spec().resolution, 1) : frames[i];
+    addProjector(radiance, LightMap(view, light, stage.unit(), kLatticeStep),
+                 LightImage(light.spec(), frame, LightImage::Leak::kWith));
+  }
+  const double ambient = stage.rig().room.dark * stage.typicalWhite();
+  return develop(radiance, lookAtRoom(stage.rig(), view), ambient, white > 0 ? white : stage.brightestWhite());
+}
+
+}  // namespace pixelflex::calib
