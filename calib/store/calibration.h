@@ -69,9 +69,10 @@ struct ProjectorCalibration {
   std::vector<Sample> samples;
   ProjectorModel model;
   FitQuality quality;
-  std::optional<std::string> alpha;     // 16-bit PNG of the projector's resolution, relative to the wall's folder
-  std::optional<std::string> response;  // 256 rows value,red,green,blue; normalised light, relative to the wall's folder
-  std::optional<glm::ivec2> flatAt;     // an exact screen: shows desktop pixels one to one from here
+  std::optional<std::string> alpha;  // 16-bit PNG of the projector's resolution, relative to the wall's folder
+  std::optional<std::string>
+      response;                      // 256 rows value,red,green,blue; normalised light, relative to the wall's folder
+  std::optional<glm::ivec2> flatAt;  // an exact screen: shows desktop pixels one to one from here
   bool operator==(const ProjectorCalibration&) const = default;
 };
 

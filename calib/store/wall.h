@@ -11,9 +11,9 @@ namespace pixelflex::calib {
 
 /// A marker on the wall whose place was measured by a person.
 struct Fiducial {
-  std::optional<int> aruco;                // id in DICT_4X4_50
-  std::optional<glm::dvec2> pointInCamera;  // pixel in the raw photograph fiducials.png; exactly one of the two is given
-  glm::dvec2 pointInWall{0, 0};            // wall units
+  std::optional<int> aruco;                 // id in DICT_4X4_50
+  std::optional<glm::dvec2> pointInCamera;  // pixel in the raw photograph; exactly one of the two is given
+  glm::dvec2 pointInWall{0, 0};             // wall units
   bool operator==(const Fiducial&) const = default;
 };
 
@@ -46,9 +46,9 @@ enum class OutputKind { kNone, kSim, kMonitor, kDisplay };
 /// Where a projector is plugged in.
 struct Output {
   OutputKind kind = OutputKind::kNone;
-  std::string monitor;     // kMonitor: RandR name, e.g. HDMI-1
-  std::string display;     // kDisplay: X display, e.g. ":0"
-  glm::ivec2 at{0, 0};     // kDisplay: top-left corner of the window on that display
+  std::string monitor;  // kMonitor: RandR name, e.g. HDMI-1
+  std::string display;  // kDisplay: X display, e.g. ":0"
+  glm::ivec2 at{0, 0};  // kDisplay: top-left corner of the window on that display
   bool operator==(const Output&) const = default;
 };
 
@@ -63,10 +63,10 @@ struct ProjectorConfig {
   std::string name;
   devices::Size resolution;
   Output output;
-  std::optional<std::string> gamma;     // path of 256 readings, relative to the wall's folder
+  std::optional<std::string> gamma;  // path of 256 readings, relative to the wall's folder
   std::optional<DeviceLine> control;
   std::optional<DeviceLine> mirror;
-  std::optional<glm::ivec2> flatAt;     // flat walls: the desktop pixel that this screen's top-left pixel shows
+  std::optional<glm::ivec2> flatAt;  // flat walls: the desktop pixel that this screen's top-left pixel shows
   bool operator==(const ProjectorConfig&) const = default;
 };
 
@@ -91,7 +91,7 @@ enum class DensityRule { kMean, kMax, kFixed };
 
 struct DesktopRequest {
   DensityRule density = DensityRule::kMean;
-  double pixelsPerUnit = 0;  // kFixed: projector pixels per wall unit
+  double pixelsPerUnit = 0;   // kFixed: projector pixels per wall unit
   double oversampling = 1.0;  // projector pixels per desktop pixel
   bool operator==(const DesktopRequest&) const = default;
 };

@@ -12,7 +12,8 @@
 namespace pixelflex::calib {
 
 /// A document being read with its positions: accessors note a Problem and return a harmless value instead of throwing,
-/// so that one pass finds everything wrong. Hides yaml-cpp. Not thread-safe. Used for wall.yaml, calibration.yaml, rigs.
+/// so that one pass finds everything wrong. Hides yaml-cpp. Not thread-safe. Used for wall.yaml, calibration.yaml,
+/// rigs.
 class YamlReader {
  public:
   /// One node of the document; cheap to copy, valid while its reader lives.
@@ -31,6 +32,8 @@ class YamlReader {
 
     [[nodiscard]] std::size_t size() const;
     [[nodiscard]] Node at(std::size_t index) const;
+    /// The keys of a map, in the file's order; all of them become known.
+    [[nodiscard]] std::vector<std::string> keys() const;
     /// The elements; notes a problem unless this is a sequence of minimum to maximum elements.
     [[nodiscard]] std::vector<Node> elements(std::size_t minimum, std::size_t maximum) const;
 
@@ -62,8 +65,13 @@ class YamlReader {
   /// Throws StoreError if anything was noted.
   void throwIfProblems() const;
 
-  /// Checks `format:` and `version:`; returns the version. A newer one throws at once with a clear message.
+  /// Checks `format:` and `version:`; returns the version. A newer one throws at once with a clear message; so do
+  /// another format and text that is not YAML, because nothing else that could be said about them would help.
   int readHeader(const std::string& format, int newestVersion);
+
+  /// For migration, before anything is read: the member at the dotted path `from` becomes the member at `to`, keeping
+  /// its place in messages. Maps on the way to `to` are made. Nothing happens when there is no such member.
+  void moveMember(const std::string& from, const std::string& to);
 
  private:
   struct State;

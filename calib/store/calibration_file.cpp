@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <cmath>
+
+#include "calib/store/store.h"
+#include "calib/store/store_checks.h"
+#include "calib/store/yaml_reader.h"
+
+namespace pixelflex::calib {
+namespace {
+
+using Node = YamlReader::Node;
+
+constexpr double kTiny = 1e-12;
+constexpr double kHuge = 1e12;
+constexpr std::size_t kMaxSamples = 1'000'000;
+
+template <std::size_t count>
+std::array<double, count> readArray(const Node& node) {
+  std::array<double, count> values{};
+  std::ranges::copy(node.numbers(count, -kHuge, kHuge), values.begin());
+  return values;
+}
+
+/// A collineation: nine numbers, row major, with an inverse.
+std::array<double, 9> readCollineation(const Node& node) {
+  const auto m = readArray<9>(node);
+  const double determinant =
+      m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]);
+  if (!(std::abs(determinant) > 0)) node.problem("this matrix is singular: it maps an area to a line");
+  return m;
+}
+
+CameraIntrinsics readCamera(const Node& node) {
+  CameraIntrinsics camera;
+  camera.size = readSize(node.required("size"), 1, kMaxExtent);
+  camera.fx = node.required("fx").number(kTiny, kHuge);
+  camera.fy = node.required("fy").number(kTiny, kHuge);
+  camera.cx = node.required("cx").number(-kMaxCoordinate, kMaxCoordinate);
+  camera.cy = node.required("cy").number(-kMaxCoordinate, kMaxCoordinate);
+  camera.radial = readArray<3>(node.required("radial"));
+  camera.tangential = readArray<2>(node.required("tangential"));
+  camera.rmsPx = node.required("rms_px").number(0, kHuge);
+  camera.photos = node.required("photos").integer(0, 1'000'000);
+  node.refuseUnknownKeys();
+  return camera;
+}
+
+SurfaceFit readSurface(const Node& node) {
+  SurfaceFit surface{readCollineation(node.required("wall_from_camera")), node.required("rms").number(0, kHuge)};
+  node.refuseUnknownKeys();
+  return surface;
+}
+
+Display readDisplay(const Node& node) {
+  const Node rect = node.required("rect");
+  const auto edges = rect.numbers(4, -kMaxCoordinate, kMaxCoordinate);
+  if (rect.size() == 4 && !(edges[0] < edges[2] && edges[1] < edges[3])) {
+    rect.problem("expected [left, top, right, bottom] with left < right and top < bottom");
+  }
+  const Node resolution = node.required("resolution");
+  const devices::Size size = readSize(resolution, 1, kMaxExtent);
+  if (size.area() > kMaxDesktopArea) resolution.problem("a desktop of more than 2^29 pixels");
+  node.refuseUnknownKeys();
+  return {edges[0], edges[1], edges[2], edges[3], size};
+}
+
+Sample readSample(const Node& node) {
+  const auto values = node.numbers(4, -kMaxCoordinate, kMaxCoordinate);
+  return {{values[0], values[1]}, {values[2], values[3]}};
+}
+
+ProjectorModel readModel(const Node& node) {
+  ProjectorModel model;
+  model.projectorFromWall = readCollineation(node.required("projector_from_wall"));
+  model.centre = readPoint(node.required("centre"));
+  model.scale = node.required("scale").number(kTiny, kHuge);
+  model.radial = readArray<3>(node.required("radial"));
+  model.tangential = readArray<2>(node.required("tangential"));
+  node.refuseUnknownKeys();
+  return model;
+}
+
+FitQuality readQuality(const Node& node) {
+  FitQuality quality;
+  quality.rms = node.required("rms_px").number(0, kHuge);
+  quality.p95 = node.required("p95_px").number(0, kHuge);
+  quality.maximum = node.required("max_px").number(0, kHuge);
+  quality.found = node.required("found").integer(0, kMaxSamples);
+  quality.shown = node.required("shown").integer(0, kMaxSamples);
+  if (quality.found > quality.shown) node.problem("more found than shown");
+  node.refuseUnknownKeys();
+  return quality;
+}
+
+ProjectorCalibration readProjector(const Node& node) {
+  ProjectorCalibration projector;
+  projector.name = readName(node.required("name"));
+  projector.resolution = readSize(node.required("resolution"), kMinResolution, kMaxResolution);
+  for (const Node& sample : node.required("samples").elements(0, kMaxSamples)) {
+    projector.samples.push_back(readSample(sample));
+  }
+  const Node model = node.optional("model");
+  if (model.defined()) projector.model = readModel(model);
+  if (!model.defined() && node.isMap()) node.problem("no model: run pixelflex calibrate WALL mesh");
+  if (const Node quality = node.optional("quality"); quality.defined()) projector.quality = readQuality(quality);
+  if (const Node alpha = node.optional("alpha"); alpha.defined()) projector.alpha = readText(alpha, kMaxPath);
+  if (const Node file = node.optional("response"); file.defined()) projector.response = readText(file, kMaxPath);
+  projector.flatAt = readFlat(node.optional("flat"), projector.resolution);
+  node.refuseUnknownKeys();
+  return projector;
+}
+
+void migrate(YamlReader& reader, int version) {
+  if (version < 1) reader.moveMember("camera.rms", "camera.rms_px");
+  if (version < 1) reader.moveMember("desktop", "display");
+}
+
+Calibration readCalibration(const Node& root) {
+  Calibration calibration;
+  if (const Node node = root.optional("camera"); node.defined()) calibration.camera = readCamera(node);
+  if (const Node node = root.optional("surface"); node.defined()) calibration.surface = readSurface(node);
+  if (const Node node = root.optional("display"); node.defined()) calibration.display = readDisplay(node);
+  const Node projectors = root.required("projectors");
+  for (const Node& node : projectors.elements(0, kMaxProjectors)) {
+    calibration.projectors.push_back(readProjector(node));
+  }
+  checkUniqueNames(projectors);
+  const Node steps = root.optional("steps");
+  for (const auto& step : steps.keys()) calibration.steps[step] = readText(steps.optional(step), kMaxPath);
+  root.refuseUnknownKeys();
+  return calibration;
+}
+
+}  // namespace
+
+Calibration parseCalibration(std::string_view text, const std::string& file) {
+  YamlReader reader(text, file);
+  migrate(reader, reader.readHeader("pixelflex-calibration", kCalibrationVersion));
+  Calibration calibration = readCalibration(reader.root());
+  reader.throwIfProblems();
+  return calibration;
+}
+
+}  // namespace pixelflex::calib

@@ -1,0 +1,83 @@
+#include <fmt/core.h>
+
+#include <string>
+
+#include "calib/store/store.h"
+#include "calib/store/yaml_text.h"
+
+namespace pixelflex::calib {
+namespace {
+
+std::string cameraText(const CameraIntrinsics& camera) {
+  return fmt::format(
+      "camera:\n  size: [{}, {}]\n  fx: {}\n  fy: {}\n  cx: {}\n  cy: {}\n  radial: {}\n  tangential: {}\n"
+      "  rms_px: {}\n  photos: {}\n",
+      camera.size.width, camera.size.height, yamlNumber(camera.fx), yamlNumber(camera.fy), yamlNumber(camera.cx),
+      yamlNumber(camera.cy), yamlList(camera.radial), yamlList(camera.tangential), yamlNumber(camera.rmsPx),
+      camera.photos);
+}
+
+std::string surfaceText(const SurfaceFit& surface) {
+  return fmt::format("surface:\n  wall_from_camera: {}\n  rms: {}\n", yamlList(surface.wallFromCamera),
+                     yamlNumber(surface.rms));
+}
+
+std::string displayText(const Display& display) {
+  return fmt::format("display:\n  rect: {}\n  resolution: [{}, {}]\n",
+                     yamlList({display.left, display.top, display.right, display.bottom}), display.resolution.width,
+                     display.resolution.height);
+}
+
+std::string modelText(const ProjectorModel& model) {
+  return fmt::format(
+      "    model:\n      projector_from_wall: {}\n      centre: {}\n      scale: {}\n      radial: {}\n"
+      "      tangential: {}\n",
+      yamlList(model.projectorFromWall), yamlList({model.centre.x, model.centre.y}), yamlNumber(model.scale),
+      yamlList(model.radial), yamlList(model.tangential));
+}
+
+std::string qualityText(const FitQuality& quality) {
+  return fmt::format("    quality: {{rms_px: {}, p95_px: {}, max_px: {}, found: {}, shown: {}}}\n",
+                     yamlNumber(quality.rms), yamlNumber(quality.p95), yamlNumber(quality.maximum), quality.found,
+                     quality.shown);
+}
+
+std::string samplesText(const std::vector<Sample>& samples) {
+  if (samples.empty()) return "    samples: []\n";
+  std::string text = "    samples:\n";
+  for (const auto& [projector, wall] : samples) {
+    text += fmt::format("      - {}\n", yamlList({projector.x, projector.y, wall.x, wall.y}));
+  }
+  return text;
+}
+
+std::string projectorText(const ProjectorCalibration& projector) {
+  std::string text =
+      fmt::format("  - name: {}\n    resolution: [{}, {}]\n{}{}", yamlText(projector.name), projector.resolution.width,
+                  projector.resolution.height, modelText(projector.model), qualityText(projector.quality));
+  if (projector.alpha) text += fmt::format("    alpha: {}\n", yamlText(*projector.alpha));
+  if (projector.response) text += fmt::format("    response: {}\n", yamlText(*projector.response));
+  if (const auto& at = projector.flatAt) text += fmt::format("    flat: {{at: [{}, {}]}}\n", at->x, at->y);
+  return text + samplesText(projector.samples);
+}
+
+}  // namespace
+
+std::string formatCalibration(const Calibration& calibration) {
+  std::string text = fmt::format(
+      "# A PixelFlex calibration: what was measured. Written by pixelflex calibrate.\n"
+      "format: pixelflex-calibration\nversion: {}\n",
+      kCalibrationVersion);
+  if (calibration.camera) text += cameraText(*calibration.camera);
+  if (calibration.surface) text += surfaceText(*calibration.surface);
+  if (calibration.display) text += displayText(*calibration.display);
+  text += calibration.projectors.empty() ? "projectors: []\n" : "projectors:\n";
+  for (const auto& projector : calibration.projectors) text += projectorText(projector);
+  if (!calibration.steps.empty()) text += "steps:\n";
+  for (const auto& [step, fingerprint] : calibration.steps) {
+    text += fmt::format("  {}: {}\n", yamlText(step), yamlText(fingerprint));
+  }
+  return text;
+}
+
+}  // namespace pixelflex::calib

@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+
+#include "calib/store/readings_file.h"
+#include "calib/store/store.h"
+#include "calib/store/yaml_reader.h"
+#include "devices/image/image_error.h"
+#include "devices/image/png_file.h"
+
+namespace pixelflex::calib {
+namespace {
+
+using Node = YamlReader::Node;
+using Problems = std::vector<Problem>;
+
+void append(Problems& problems, const Problems& more) {
+  problems.insert(problems.end(), more.begin(), more.end());
+}
+
+/// What `action` throws, as problems.
+void collect(Problems& problems, const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const StoreError& error) {
+    append(problems, error.problems());
+  } catch (const std::runtime_error& error) {
+    problems.push_back({"", 0, 0, error.what()});  // names its file
+  }
+}
+
+/// The files that wall.yaml and calibration.yaml name are looked at through their nodes, so that a missing one is
+/// reported where it is named.
+class Checker {
+ public:
+  Checker(const std::filesystem::path& folder, Problems& problems) : folder_(folder), problems_(problems) {}
+
+  void checkReadingsAt(const Node& node) {
+    if (exists(node)) collect(problems_, [&] { append(problems_, checkReadings(folder_ / node.text())); });
+  }
+
+  void checkMaskAt(const Node& node, devices::Size resolution) {
+    if (!exists(node)) return;
+    const std::filesystem::path path = folder_ / node.text();
+    collect(problems_, [&] {
+      const devices::Image16 mask = devices::readPng16(path);
+      if (!(mask.size() == resolution)) {
+        addFile(path, "the mask is " + text(mask.size()) + ", its projector " + text(resolution));
+      }
+      if (mask.channels() != 1 || bitDepth(path) != 16) addFile(path, "a mask is a 16-bit grey PNG");
+    });
+  }
+
+  bool exists(const Node& node) {
+    if (!node.isScalar()) return false;
+    if (std::filesystem::is_regular_file(folder_ / node.text())) return true;
+    node.problem("there is no file " + (folder_ / node.text()).string());
+    return false;
+  }
+
+  static std::string text(devices::Size size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
+
+ private:
+  void addFile(const std::filesystem::path& path, const std::string& message) {
+    problems_.push_back({path.string(), 0, 0, message});
+  }
+
+  static int bitDepth(const std::filesystem::path& path) {
+    constexpr std::size_t kPlace = 24;  // signature, length and name of the header chunk, width, height
+    const std::string bytes = readStoreFile(path.string());
+    return bytes.size() > kPlace ? static_cast<unsigned char>(bytes[kPlace]) : 0;
+  }
+
+  const std::filesystem::path& folder_;
+  Problems& problems_;
+};
+
+void checkWallFiles(const std::filesystem::path& folder, const Wall& wall, Problems& problems) {
+  const auto path = (folder / "wall.yaml").string();
+  const YamlReader reader(readStoreFile(path), path);
+  Checker checker(folder, problems);
+  const Node list = reader.root().optional("projectors");
+  for (std::size_t i = 0; i < wall.projectors.size(); ++i) checker.checkReadingsAt(list.at(i).optional("gamma"));
+  (void)checker.exists(reader.root().optional("rig"));
+  append(problems, reader.problems());
+}
+
+void checkAgreement(const Node& node, const ProjectorCalibration& projector, const Wall& wall) {
+  const auto config = std::ranges::find(wall.projectors, projector.name, &ProjectorConfig::name);
+  if (config == wall.projectors.end()) {
+    node.optional("name").problem("wall.yaml has no projector " + projector.name);
+  } else if (!(config->resolution == projector.resolution)) {
+    node.optional("resolution")
+        .problem("wall.yaml says " + Checker::text(config->resolution) + ": run pixelflex calibrate WALL again");
+  } else if (config->flatAt != projector.flatAt) {
+    node.problem(R"(its "flat" differs from wall.yaml's)");
+  }
+}
+
+void checkCalibrationFiles(const std::filesystem::path& folder, const Calibration& calibration,
+                           const std::optional<Wall>& wall, Problems& problems) {
+  const auto path = (folder / "calibration.yaml").string();
+  const YamlReader reader(readStoreFile(path), path);
+  Checker checker(folder, problems);
+  const Node list = reader.root().optional("projectors");
+  for (std::size_t i = 0; i < calibration.projectors.size(); ++i) {
+    const auto& projector = calibration.projectors[i];
+    checker.checkMaskAt(list.at(i).optional("alpha"), projector.resolution);
+    checker.checkReadingsAt(list.at(i).optional("response"));
+    if (wall) checkAgreement(list.at(i), projector, *wall);
+  }
+  for (std::size_t i = 0; wall && i < wall->projectors.size(); ++i) {
+    const std::string& name = wall->projectors[i].name;
+    if (calibration.find(name) == nullptr) {
+      list.problem("projector " + name + " is not calibrated: run pixelflex calibrate WALL");
+    }
+  }
+  append(problems, reader.problems());
+}
+
+}  // namespace
+
+std::vector<Problem> checkWall(const std::filesystem::path& folder) {
+  Problems problems;
+  std::optional<Wall> wall;
+  collect(problems, [&] {
+    wall = loadWall(folder);
+    checkWallFiles(folder, *wall, problems);
+  });
+  if (!hasCalibration(folder)) return problems;
+  collect(problems, [&] { checkCalibrationFiles(folder, loadCalibration(folder), wall, problems); });
+  return problems;
+}
+
+}  // namespace pixelflex::calib
