@@ -132,6 +132,7 @@ void RfbClient::State::fail() const {
 }
 
 void RfbClient::State::read(std::span<std::uint8_t> bytes) {
+  if (bytes.empty()) return;  // libvncclient takes no null pointer, not even for no bytes
   if (!ReadFromRFBServer(client, reinterpret_cast<char*>(bytes.data()), static_cast<unsigned>(bytes.size()))) fail();
 }
 
