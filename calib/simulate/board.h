@@ -5,7 +5,6 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "calib/simulate/lens.h"
 #include "calib/simulate/rig.h"
 #include "devices/image/image.h"
 
