@@ -21,7 +21,9 @@ namespace {
 
 // libpng reports errors through a callback that must not return. Throwing from it is safe: both structures are owned by
 // objects on this stack, and Debian builds libpng with unwind tables.
-[[noreturn]] void throwPngError(png_structp, png_const_charp message) { throw std::runtime_error(message); }
+[[noreturn]] void throwPngError(png_structp, png_const_charp message) {
+  throw std::runtime_error(message);
+}
 void ignorePngWarning(png_structp, png_const_charp) {}
 
 class PngReader {
@@ -155,9 +157,17 @@ void write(const std::filesystem::path& path, const Image<Sample>& image, PngEff
 
 }  // namespace
 
-Image8 readPng8(const std::filesystem::path& path) { return read<std::uint8_t>(path); }
-Image16 readPng16(const std::filesystem::path& path) { return read<std::uint16_t>(path); }
-void writePng(const std::filesystem::path& path, const Image8& image, PngEffort effort) { write(path, image, effort); }
-void writePng(const std::filesystem::path& path, const Image16& image, PngEffort effort) { write(path, image, effort); }
+Image8 readPng8(const std::filesystem::path& path) {
+  return read<std::uint8_t>(path);
+}
+Image16 readPng16(const std::filesystem::path& path) {
+  return read<std::uint16_t>(path);
+}
+void writePng(const std::filesystem::path& path, const Image8& image, PngEffort effort) {
+  write(path, image, effort);
+}
+void writePng(const std::filesystem::path& path, const Image16& image, PngEffort effort) {
+  write(path, image, effort);
+}
 
 }  // namespace pixelflex::devices

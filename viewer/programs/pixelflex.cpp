@@ -1,0 +1,137 @@
+// pixelflex NAME …: runs the program pixelflex-NAME beside this one, as git does. Each does its own work with its own
+// libraries, so that a render node carries no OpenCV.
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace {
+
+constexpr int kWrongUsage = 2;
+
+struct Command {
+  std::string_view name;
+  std::string_view description;
+};
+
+constexpr std::array kCommands = {
+    Command{"new", "makes a wall's folder with a commented wall.yaml"},
+    Command{"check", "lists everything wrong with the files of a wall"},
+    Command{"calibrate", "measures where each projector's light falls and how bright it is"},
+    Command{"view", "shows a VNC desktop on the wall"},
+    Command{"simulate", "composes projector frames into what the audience of a simulated wall sees"},
+    Command{"model", "shows a 3D model on the wall"},
+    Command{"panel", "opens the control panel"},
+    Command{"preset", "saves and restores device settings with their calibration"},
+    Command{"device", "lists, reads or sets the settings of devices"},
+};
+
+std::filesystem::path ownFolder() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
+
+std::filesystem::path programOf(std::string_view command) {
+  return ownFolder() / ("pixelflex-" + std::string(command));
+}
+
+bool isPresent(std::string_view command) {
+  return ::access(programOf(command).c_str(), X_OK) == 0;
+}
+
+bool isCommandName(std::string_view name) {
+  const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
+  return !name.empty() && name.front() != '-' && std::ranges::all_of(name, isLetter);
+}
+
+void printHelp(std::ostream& stream) {
+  constexpr std::size_t kColumn = 11;
+  stream << "Usage: pixelflex COMMAND [ARGUMENTS]\n       pixelflex help COMMAND\n       pixelflex "
+            "--version\n\nCommands:\n";
+  for (const auto& [name, description] : kCommands) {
+    if (isPresent(name)) stream << "  " << name << std::string(kColumn - name.size(), ' ') << description << '\n';
+  }
+}
+
+std::size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replace = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = std::exchange(row[j], std::min({replace, row[j] + 1, row[j - 1] + 1}));
+    }
+  }
+  return row[b.size()];
+}
+
+/// The present command nearest to a mistyped one; empty when none is near.
+std::string_view nearestCommand(std::string_view typed) {
+  std::string_view best;
+  std::size_t bestDistance = 3;
+  for (const auto& [name, description] : kCommands) {
+    const std::size_t distance = editDistance(typed.substr(0, 32), name);
+    if (distance >= bestDistance || distance >= name.size() || !isPresent(name)) continue;
+    best = name;
+    bestDistance = distance;
+  }
+  return best;
+}
+
+int refuse(const std::string& name) {
+  std::cerr << "pixelflex: there is no command \"" << name << "\"";
+  if (const auto suggestion = nearestCommand(name); !suggestion.empty()) {
+    std::cerr << "; did you mean \"" << suggestion << "\"?";
+  }
+  std::cerr << " (pixelflex help lists the commands)\n";
+  return kWrongUsage;
+}
+
+/// Replaces this process; returns only when that is not possible.
+int run(const std::string& name, std::vector<std::string> arguments) {
+  if (!isCommandName(name) || !isPresent(name)) return refuse(name);
+  std::string program = programOf(name).string();
+  std::vector<char*> pointers = {program.data()};
+  for (auto& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  ::execv(program.c_str(), pointers.data());
+  std::cerr << "pixelflex: cannot run " << program << ": " << std::strerror(errno) << '\n';
+  return 1;
+}
+
+int dispatch(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) {
+    printHelp(std::cerr);
+    return kWrongUsage;
+  }
+  const std::string& first = arguments.front();
+  if (first == "--version") {
+    std::cout << "pixelflex " << PIXELFLEX_VERSION << '\n';
+    return 0;
+  }
+  if (first == "help" || first == "--help" || first == "-h") {
+    if (first == "help" && arguments.size() > 1) return run(arguments[1], {"--help"});
+    printHelp(std::cout);
+    return 0;
+  }
+  return run(first, {arguments.begin() + 1, arguments.end()});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  return dispatch({argv + std::min(argc, 1), argv + argc});
+} catch (const std::exception& error) {
+  std::cerr << "pixelflex: " << error.what() << '\n';
+  return 1;
+}
