@@ -1,0 +1,111 @@
+#include "calib/capture/live_photographs.h"
+
+#include <exception>
+
+#include "devices/image/png_file.h"
+
+namespace pixelflex::calib {
+
+PhotoWriter::PhotoWriter() : thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+PhotoWriter::~PhotoWriter() = default;  // the thread is asked to stop and joined first: it is the last member
+
+void PhotoWriter::write(std::filesystem::path file, devices::Image8 photo) {
+  constexpr std::size_t kLongestQueue = 4;
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return queue_.size() < kLongestQueue || error_; });
+  if (error_) std::rethrow_exception(error_);
+  queue_.emplace_back(std::move(file), std::move(photo));
+  changed_.notify_all();
+}
+
+void PhotoWriter::finish() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return (queue_.empty() && !writing_) || error_; });
+  if (error_) std::rethrow_exception(error_);
+}
+
+void PhotoWriter::run(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  while (changed_.wait(lock, stop, [this] { return !queue_.empty(); })) {
+    const auto [file, photo] = std::move(queue_.front());
+    queue_.pop_front();
+    writing_ = true;
+    changed_.notify_all();
+    lock.unlock();
+    std::exception_ptr error;
+    try {
+      devices::writePng(file, photo);
+    } catch (...) {
+      error = std::current_exception();
+    }
+    lock.lock();
+    writing_ = false;
+    if (error) error_ = error;
+    changed_.notify_all();
+    if (error_) return;
+  }
+}
+
+LivePhotographs::LivePhotographs(devices::Camera& camera, std::vector<devices::Projector*> projectors,
+                                 devices::Operator& person, std::filesystem::path captures, std::string identity,
+                                 int checkerboardCount)
+    : camera_(camera),
+      projectors_(std::move(projectors)),
+      person_(person),
+      captures_(std::move(captures)),
+      identity_(std::move(identity)),
+      checkerboardCount_(checkerboardCount) {}
+
+LivePhotographs::~LivePhotographs() {
+  try {
+    blankAll();
+  } catch (const std::exception&) {  // a projector that is gone cannot be blanked; nothing is left to do for it
+  }
+}
+
+std::optional<Photographs::Named> LivePhotographs::nextCheckerboard() {
+  if (nextCheckerboard_ == 0) blankAll();
+  dark_ = false;
+  if (!person_.arrange(devices::Scene::kCheckerboard, nextCheckerboard_)) return std::nullopt;
+  const std::filesystem::path relative = "checkerboard/" + std::to_string(++nextCheckerboard_) + ".png";
+  return Named{(captures_ / relative).string(), shoot(relative)};
+}
+
+Photographs::Named LivePhotographs::fiducials() {
+  blankAll();
+  dark_ = false;
+  if (!person_.arrange(devices::Scene::kRoomLight, 0)) throw CaptureError("the room lights could not be switched on");
+  return {(captures_ / "fiducials.png").string(), shoot("fiducials.png")};
+}
+
+devices::Image8 LivePhotographs::pattern(const std::string& projector, const BlobLayout& layout, Pattern pattern) {
+  devices::Projector* target = find(projector);
+  if (target == nullptr) throw CaptureError("projector " + projector + " is not connected");
+  if (!dark_ && !person_.arrange(devices::Scene::kDark, 0)) throw CaptureError("the room could not be darkened");
+  dark_ = true;
+  if (lit_ != target) blankAll();
+  lit_ = target;
+  target->show(renderPattern(pattern, layout));
+  return shoot(patternPath(projector, pattern).string() + ".png");
+}
+
+devices::Projector* LivePhotographs::find(const std::string& name) const {
+  for (devices::Projector* projector : projectors_) {
+    if (projector->name() == name) return projector;
+  }
+  return nullptr;
+}
+
+void LivePhotographs::blankAll() {
+  lit_ = nullptr;
+  for (devices::Projector* projector : projectors_) projector->blank();
+}
+
+devices::Image8 LivePhotographs::shoot(const std::filesystem::path& relative) {
+  devices::Image8 photo = camera_.shoot();
+  writer_.write(captures_ / relative, photo);
+  return photo;
+}
+
+}  // namespace pixelflex::calib

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "calib/capture/photographs.h"
+#include "devices/camera/camera.h"
+#include "devices/camera/operator.h"
+#include "devices/projector/projector.h"
+
+namespace pixelflex::calib {
+
+/// Writes PNG files on a thread of its own so that the next photograph need not wait; at most four are queued.
+class PhotoWriter {
+ public:
+  PhotoWriter();
+  ~PhotoWriter();
+  PhotoWriter(const PhotoWriter&) = delete;
+  PhotoWriter& operator=(const PhotoWriter&) = delete;
+  void write(std::filesystem::path file, devices::Image8 photo);
+  /// Waits for the last file; throws what a write threw.
+  void finish();
+
+ private:
+  void run(const std::stop_token& stop);
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::deque<std::pair<std::filesystem::path, devices::Image8>> queue_;
+  bool writing_ = false;
+  std::exception_ptr error_;
+  std::jthread thread_;
+};
+
+/// Photographs taken now: shows each pattern on its projector with all others black, through the device interfaces.
+/// The projectors are black again when this ends, whatever happened.
+class LivePhotographs : public Photographs {
+ public:
+  /// The devices must outlive this. `identity` describes the set-up for stamp(). Photographs go to `captures` as they
+  /// are taken.
+  LivePhotographs(devices::Camera& camera, std::vector<devices::Projector*> projectors, devices::Operator& person,
+                  std::filesystem::path captures, std::string identity, int checkerboardCount);
+  ~LivePhotographs() override;
+  LivePhotographs(const LivePhotographs&) = delete;
+  LivePhotographs& operator=(const LivePhotographs&) = delete;
+
+  [[nodiscard]] std::optional<Named> nextCheckerboard() override;
+  [[nodiscard]] int checkerboardCount() const override { return checkerboardCount_; }
+  [[nodiscard]] Named fiducials() override;
+  [[nodiscard]] bool hasProjector(const std::string& projector) override { return find(projector) != nullptr; }
+  [[nodiscard]] devices::Image8 pattern(const std::string& projector, const BlobLayout& layout,
+                                        Pattern pattern) override;
+  [[nodiscard]] std::string stamp(const std::string&) const override { return identity_; }
+  void keep() override { writer_.finish(); }
+
+ private:
+  [[nodiscard]] devices::Projector* find(const std::string& name) const;
+  void blankAll();
+  [[nodiscard]] devices::Image8 shoot(const std::filesystem::path& relative);
+
+  devices::Camera& camera_;
+  std::vector<devices::Projector*> projectors_;
+  devices::Operator& person_;
+  std::filesystem::path captures_;
+  std::string identity_;
+  int checkerboardCount_;
+  int nextCheckerboard_ = 0;
+  bool dark_ = false;
+  devices::Projector* lit_ = nullptr;
+  PhotoWriter writer_;
+};
+
+}  // namespace pixelflex::calib

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "calib/patterns/blob_decoder.h"
+#include "calib/store/calibration.h"
+#include "devices/image/image.h"
+
+namespace pixelflex::calib {
+
+/// Photographs cannot be had; what() names the file or device and says what to do.
+class CaptureError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The photographs that a calibration works from, asked for one by one. Thread-bound.
+class Photographs {
+ public:
+  Photographs() = default;
+  virtual ~Photographs() = default;
+  Photographs(const Photographs&) = delete;
+  Photographs& operator=(const Photographs&) = delete;
+
+  /// Known intrinsics instead of checkerboard photographs.
+  [[nodiscard]] virtual std::optional<CameraIntrinsics> knownCamera() { return std::nullopt; }
+
+  struct Named {
+    std::string name;  // for messages
+    devices::Image8 photo;
+  };
+  /// The next photograph of the checkerboard; none after the last.
+  [[nodiscard]] virtual std::optional<Named> nextCheckerboard() = 0;
+  /// How many of them there will be, for progress; 0 when unknown.
+  [[nodiscard]] virtual int checkerboardCount() const = 0;
+
+  /// The wall with its markers in room light.
+  [[nodiscard]] virtual Named fiducials() = 0;
+
+  /// Whether anything was photographed of this projector at all.
+  [[nodiscard]] virtual bool hasProjector(const std::string& projector) = 0;
+  /// One pattern on this projector, every other one black.
+  [[nodiscard]] virtual devices::Image8 pattern(const std::string& projector, const BlobLayout& layout,
+                                                Pattern pattern) = 0;
+
+  /// A short text that changes when the photographs of a kind would: "checkerboard", "fiducials" or "patterns".
+  [[nodiscard]] virtual std::string stamp(const std::string& kind) const = 0;
+
+  /// Called once after success: keeps every photograph used under the wall's captures/.
+  virtual void keep() = 0;
+};
+
+/// Relative path of a pattern's photograph without its ending: "p1/bit3".
+[[nodiscard]] std::filesystem::path patternPath(const std::string& projector, Pattern pattern);
+
+/// What each projector must show, and README.txt for the person who photographs it (contract: "Photographs: one rule").
+void writePatterns(const std::filesystem::path& folder,
+                   const std::vector<std::pair<std::string, devices::Size>>& projectors);
+
+}  // namespace pixelflex::calib

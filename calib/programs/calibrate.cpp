@@ -1,0 +1,164 @@
+// pixelflex calibrate WALL [STEP…]: measures the wall with a camera, or from photographs.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/capture/folder_photographs.h"
+#include "calib/capture/live_photographs.h"
+#include "calib/procedure/procedure.h"
+#include "calib/procedure/summary.h"
+#include "calib/programs/calibrate_table.h"
+#include "calib/programs/console_progress.h"
+#include "calib/report/report.h"
+#include "calib/simulate/simulated_wall.h"
+#include "calib/store/store.h"
+#include "calib/store/yaml_reader.h"
+#include "devices/image/atomic_file.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace pixelflex;
+using namespace pixelflex::calib;
+
+struct Arguments {
+  std::string wall;
+  std::vector<std::string> steps;
+  std::string patterns;
+  std::string photos;
+  std::vector<std::string> skip;
+  bool all = false;
+};
+
+/// Where the photographs come from, with the devices that must outlive them.
+struct Source {
+  std::unique_ptr<SimulatedWall> room;
+  std::unique_ptr<Photographs> photographs;
+  bool live = false;
+};
+
+Source simulatedSource(const fs::path& folder, const Wall& wall) {
+  if (!wall.rig) throw ProcedureError((folder / "wall.yaml").string() + ": camera: sim needs a rig: FILE as well");
+  Source source;
+  source.live = true;
+  source.room = std::make_unique<SimulatedWall>(loadRig(folder / *wall.rig));
+  std::vector<devices::Projector*> projectors;
+  for (std::size_t i = 0; i < source.room->projectorCount(); ++i) projectors.push_back(&source.room->projector(i));
+  source.photographs =
+      std::make_unique<LivePhotographs>(source.room->camera(), projectors, source.room->person(), folder / "captures",
+                                        formatRig(source.room->rig()), source.room->rig().checkerboardPoses);
+  return source;
+}
+
+Source openSource(const fs::path& folder, const Wall& wall, const Arguments& arguments) {
+  const fs::path captures = folder / "captures";
+  if (!arguments.photos.empty()) {
+    return {nullptr, std::make_unique<FolderPhotographs>(arguments.photos, captures), false};
+  }
+  if (wall.camera.source == "sim") return simulatedSource(folder, wall);
+  if (wall.camera.source == "photos") {
+    if (fs::is_directory(captures)) return {nullptr, std::make_unique<FolderPhotographs>(captures, captures), false};
+    throw ProcedureError(folder.string() +
+                         ": camera: source is photos: give --photos DIR (--patterns DIR tells what to photograph)");
+  }
+  throw ProcedureError((folder / "wall.yaml").string() + ": camera: source " + wall.camera.source +
+                       " cannot be driven by this version; photograph by hand and use --photos DIR");
+}
+
+void writePatternFolder(const Wall& wall, const Arguments& arguments) {
+  std::vector<std::pair<std::string, devices::Size>> projectors;
+  for (const auto& projector : wall.projectors) projectors.emplace_back(projector.name, projector.resolution);
+  writePatterns(arguments.patterns, projectors);
+  fmt::print("{} patterns for {} projectors in {}; read {}\n", kPatternCount * projectors.size(), projectors.size(),
+             arguments.patterns, (fs::path(arguments.patterns) / "README.txt").string());
+}
+
+void refuseUnknownSkips(const Wall& wall, const Arguments& arguments) {
+  for (const auto& name : arguments.skip) {
+    if (std::ranges::find(wall.projectors, name, &ProjectorConfig::name) == wall.projectors.end()) {
+      throw ProcedureError("--skip " + name + ": no projector of this name in wall.yaml");
+    }
+  }
+}
+
+/// Measured steps can be left alone when their photographs are out of reach but only later ones were asked for.
+bool needsPhotographs(const Arguments& arguments) {
+  const auto measured = [](const std::string& step) {
+    return step == "camera" || step == "surface" || step == "projectors";
+  };
+  return arguments.steps.empty() || std::ranges::any_of(arguments.steps, measured);
+}
+
+void finish(const fs::path& folder, const Wall& wall, const Calibration& calibration) {
+  const Summary summary = summarise(wall, calibration);
+  const fs::path report = folder / "report.html";
+  devices::writeFileAtomically(report, reportHtml(folder, wall, calibration, summary));
+  fmt::print("\n{}\nreport: {}\n", formatTable(wall, calibration, summary), report.string());
+}
+
+void calibrateFlat(const fs::path& folder, const Wall& wall) {
+  const Calibration calibration = flatCalibration(wall);
+  saveCalibration(folder, calibration);
+  fmt::print("a flat wall needs no camera: computed from wall.yaml\n");
+  finish(folder, wall, calibration);
+}
+
+void calibrate(const Arguments& arguments) {
+  const fs::path folder = arguments.wall;
+  const Wall wall = loadWall(folder);
+  if (!arguments.patterns.empty()) return writePatternFolder(wall, arguments);
+  if (wall.isFlat()) return calibrateFlat(folder, wall);
+  refuseUnknownSkips(wall, arguments);
+  Source source;
+  if (needsPhotographs(arguments)) source = openSource(folder, wall, arguments);
+  ConsoleProgress progress;
+  Procedure procedure(folder, wall, hasCalibration(folder) ? loadCalibration(folder) : Calibration{},
+                      source.photographs.get(), progress);
+  const auto ran = procedure.run({.steps = arguments.steps,
+                                  .force = arguments.all,
+                                  .skip = {arguments.skip.begin(), arguments.skip.end()},
+                                  .goOnWithoutFailed = source.live});
+  if (ran.empty()) fmt::print("nothing has changed since the last calibration (--all measures again)\n");
+  if (!ran.empty()) procedure.save();
+  finish(folder, wall, procedure.calibration());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app{
+      "Measures the wall: camera, surface, projectors, mesh, blend, gamma. Without STEP: every step that is stale.",
+      "pixelflex-calibrate"};
+  app.set_version_flag("--version", PIXELFLEX_VERSION);
+  app.add_option("WALL", arguments.wall, "the wall's folder")->required();
+  app.add_option("STEP", arguments.steps, "only these: camera surface projectors mesh blend gamma")
+      ->check(CLI::IsMember(stepNames()));
+  auto* patterns =
+      app.add_option("--patterns", arguments.patterns, "only write what each projector must show into this folder");
+  app.add_option("--photos", arguments.photos, "work from the photographs in this folder")->excludes(patterns);
+  app.add_option("--skip", arguments.skip, "leave these projectors out")->delimiter(',');
+  app.add_flag("--all", arguments.all, "every step, stale or not");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    calibrate(arguments);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fflush(stdout);
+    fmt::print(stderr, "pixelflex-calibrate: {}\n", error.what());
+    return 1;
+  }
+}

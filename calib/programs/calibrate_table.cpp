@@ -1,0 +1,46 @@
+#include "calib/programs/calibrate_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pixelflex::calib {
+namespace {
+
+std::string projectorLine(const ProjectorSummary& p, std::size_t width) {
+  if (!p.calibrated) return fmt::format("{:<{}}  {}\n", p.name, width, p.note);
+  return fmt::format("{:<{}}  {:>7}  {:>7.3f} {:>7.3f} {:>7.3f}  {:>7.3f}  {:>6.1f} %  {:>6.1f} %{}{}\n", p.name, width,
+                     fmt::format("{}/{}", p.quality.found, p.quality.shown), p.quality.rms, p.quality.p95,
+                     p.quality.maximum, p.density, p.overlapPercent, p.displayPercent, p.note.empty() ? "" : "  ",
+                     p.note);
+}
+
+}  // namespace
+
+std::string formatTable(const Wall& wall, const Calibration& calibration, const Summary& summary) {
+  std::size_t width = std::string_view("projector").size();
+  for (const auto& projector : summary.projectors) width = std::max(width, projector.name.size());
+  const std::string& units = wall.surface.units;
+  std::string table = fmt::format("{:<{}}  {:>7}  {:>7} {:>7} {:>7}  {:>7}  {:>8}  {:>8}\n", "projector", width,
+                                  "blobs", "rms px", "p95 px", "max px", "px/" + units, "overlap", "display");
+  for (const auto& projector : summary.projectors) table += projectorLine(projector, width);
+  if (const auto& camera = calibration.camera) {
+    table += fmt::format("{:<{}}  {}x{}, ", "camera", width, camera->size.width, camera->size.height);
+    table += camera->photos > 0 ? fmt::format("{} checkerboard photographs, reprojection {:.3f} px rms\n",
+                                              camera->photos, camera->rmsPx)
+                                : "known intrinsics\n";
+  }
+  if (const auto& surface = calibration.surface) {
+    table += fmt::format("{:<{}}  fiducials fit to {:.3f} {} rms\n", "surface", width, surface->rms, units);
+  }
+  if (const auto& d = calibration.display) {
+    const double area = (d->right - d->left) * (d->bottom - d->top);
+    const double litPercent = summary.lit.area > 0 ? 100 * area / summary.lit.area : 0;
+    table += fmt::format("{:<{}}  {:.0f} x {:.0f} {} at ({:.0f}, {:.0f}), {:.0f} % of the lit area; desktop {}x{}\n",
+                         "display", width, d->right - d->left, d->bottom - d->top, units, d->left, d->top, litPercent,
+                         d->resolution.width, d->resolution.height);
+  }
+  return table;
+}
+
+}  // namespace pixelflex::calib
