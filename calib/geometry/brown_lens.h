@@ -2,15 +2,17 @@
 
 #include <array>
 #include <glm/vec2.hpp>
+#include <limits>
 #include <optional>
 
 namespace pixelflex::calib {
 
 /// Brown's lens distortion on the normalised plane: three radial and two tangential coefficients (report 5.1.1, in the
 /// sense and signs that OpenCV uses).
-struct BrownLens {
-  std::array<double, 3> radial{};
-  std::array<double, 2> tangential{};
+class BrownLens {
+ public:
+  BrownLens() = default;  // perfect
+  BrownLens(const std::array<double, 3>& radial, const std::array<double, 2>& tangential);
 
   /// Ideal to distorted. A template so that automatic differentiation can pass through it.
   template <class T>
@@ -29,7 +31,17 @@ struct BrownLens {
 
   /// The radius up to which the radial polynomial still grows; beyond it the picture would fold over. Infinite when it
   /// never folds.
-  [[nodiscard]] double foldRadius() const;
+  [[nodiscard]] double foldRadius() const { return foldRadius_; }
+
+ private:
+  struct Jacobian {
+    double xx, xy, yy;  // symmetric: d(xOut)/dy equals d(yOut)/dx in Brown's model
+  };
+  [[nodiscard]] Jacobian jacobianAt(glm::dvec2 ideal) const;
+
+  std::array<double, 3> radial_{};
+  std::array<double, 2> tangential_{};
+  double foldRadius_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace pixelflex::calib

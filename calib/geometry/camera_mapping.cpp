@@ -3,7 +3,7 @@
 namespace pixelflex::calib {
 
 CameraMapping::CameraMapping(const CameraIntrinsics& intrinsics)
-    : lens_{intrinsics.radial, intrinsics.tangential},
+    : lens_(intrinsics.radial, intrinsics.tangential),
       focal_(intrinsics.fx, intrinsics.fy),
       centre_(intrinsics.cx, intrinsics.cy) {}
 

@@ -10,7 +10,7 @@ namespace pixelflex::calib {
 ProjectorMapping::ProjectorMapping(const ProjectorModel& model, devices::Size resolution)
     : projectorFromWall_(model.projectorFromWall),
       wallFromNormalised_(projectorFromWall_.inverse()),
-      lens_{model.radial, model.tangential},
+      lens_(model.radial, model.tangential),
       centre_(model.centre),
       scale_(model.scale),
       resolution_(resolution),
