@@ -10,8 +10,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <sstream>
 #include <system_error>
-#include <thread>
 
 #include "viewer/vnc/host_lookup.h"
 #include "viewer/vnc/session_error.h"
@@ -65,8 +65,9 @@ void tuneTcp(int socket) {
   const std::string where = describeServer(server);
   if (error == ECONNREFUSED) fail("nothing listens at " + where + ": is the server running?");
   if (error == ETIMEDOUT) {
-    const auto seconds = std::chrono::duration_cast<std::chrono::duration<double>>(timeout).count();
-    fail("no answer from " + where + " within " + std::to_string(seconds).substr(0, 4) + " s");
+    std::ostringstream seconds;
+    seconds << std::chrono::duration<double>(timeout).count();
+    fail("no answer from " + where + " within " + seconds.str() + " s");
   }
   fail("cannot connect to " + where + ": " + errorText(error));
 }
