@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "calib/store/calibration.h"
+#include "calib/store/wall.h"
+#include "viewer/renderer/output_plan.h"
+
+namespace pixelflex::viewer {
+
+/// A calibration that cannot be shown; what() says what is missing and what to run.
+class PlanError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A calibrated wall as the viewer needs it, read from the store once.
+class WallPlan {
+ public:
+  /// `only`: names of the projectors to show; empty means all that are calibrated. Reads masks and responses from
+  /// `folder`. Throws PlanError, StoreError, ImageError, ResponseError.
+  WallPlan(const std::filesystem::path& folder, calib::Wall wall, calib::Calibration calibration,
+           const std::vector<std::string>& only);
+
+  /// The desktop that the wall was calibrated for.
+  [[nodiscard]] devices::Size desktop() const { return calibration_.display->resolution; }
+  [[nodiscard]] const std::vector<const calib::ProjectorCalibration*>& projectors() const { return projectors_; }
+  [[nodiscard]] const calib::Wall& wall() const { return wall_; }
+  [[nodiscard]] const calib::Calibration& calibration() const { return calibration_; }
+
+  /// One plan for each of projectors(), for a desktop of this size: it fills the display rectangle whatever its size.
+  /// Flat screens show their part one to one. Uses two threads.
+  [[nodiscard]] std::vector<OutputPlan> outputsFor(devices::Size desktop) const;
+
+ private:
+  [[nodiscard]] OutputPlan outputFor(std::size_t index, devices::Size desktop) const;
+
+  calib::Wall wall_;
+  calib::Calibration calibration_;
+  std::vector<const calib::ProjectorCalibration*> projectors_;
+  std::vector<devices::Image16> alpha_;
+  std::vector<std::array<std::vector<float>, 3>> inverseResponse_;
+};
+
+}  // namespace pixelflex::viewer

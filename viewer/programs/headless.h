@@ -1,0 +1,14 @@
+#pragma once
+
+#include "viewer/plan/wall_plan.h"
+#include "viewer/programs/view_options.h"
+
+namespace pixelflex::viewer {
+
+/// Shows the wall in no window: until the screenshot is written, or until SIGINT or SIGTERM. Returns the exit status.
+int runHeadless(const ViewOptions& options, const WallPlan& wall);
+
+/// DIR/<projector>.png, exactly what each projector is sent, and DIR/desktop.png. Throws ImageError.
+void writeScreenshot(const std::string& folder, class WallRenderer& renderer);
+
+}  // namespace pixelflex::viewer

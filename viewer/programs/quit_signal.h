@@ -1,0 +1,26 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <thread>
+
+namespace pixelflex::viewer {
+
+/// Turns SIGINT and SIGTERM into a flag and a call. Make it before any other thread: the signals are blocked in every
+/// thread that starts later, and a thread of its own waits for them. One at a time.
+class QuitSignal {
+ public:
+  /// `onQuit` is called from that thread.
+  explicit QuitSignal(std::function<void()> onQuit);
+  ~QuitSignal();
+  QuitSignal(const QuitSignal&) = delete;
+  QuitSignal& operator=(const QuitSignal&) = delete;
+  [[nodiscard]] bool raised() const { return raised_; }
+
+ private:
+  std::atomic<bool> raised_ = false;
+  std::function<void()> onQuit_;
+  std::jthread thread_;
+};
+
+}  // namespace pixelflex::viewer

@@ -1,0 +1,63 @@
+// pixelflex view WALL SERVER: a VNC server's desktop on the wall.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+
+#include "calib/store/store.h"
+#include "viewer/programs/headless.h"
+#include "viewer/programs/view_options.h"
+
+namespace {
+
+using namespace pixelflex;
+using namespace pixelflex::viewer;
+
+int view(const ViewOptions& options) {
+  const WallPlan wall(options.wall, calib::loadWall(options.wall), calib::loadCalibration(options.wall),
+                      options.projectors);
+  return runHeadless(options, wall);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ViewOptions options;
+  CLI::App app{"Shows a VNC server's desktop on the wall. SERVER is HOST:DISPLAY, HOST::PORT, [V6]::PORT or unix:PATH.",
+               "pixelflex-view"};
+  app.set_version_flag("--version", PIXELFLEX_VERSION);
+  app.add_option("WALL", options.wall, "the wall's folder")->required();
+  std::string server;
+  app.add_option("SERVER", server, "the VNC server")->required();
+  app.add_flag("--headless", options.headless, "draw without any window or X server (EGL)");
+  app.add_option("--screenshot", options.screenshot,
+                 "once the picture is complete and still, write DIR/<projector>.png and DIR/desktop.png and exit");
+  int settle = static_cast<int>(options.settle.count());
+  app.add_option("--settle", settle, "how many milliseconds nothing must change before the screenshot")
+      ->check(CLI::Range(0, 3'600'000))
+      ->capture_default_str();
+  app.add_option("--projectors", options.projectors, "only these projectors")->delimiter(',');
+  app.add_flag("--view-only", options.viewOnly, "send neither pointer nor keys");
+  app.add_option("--password-file", options.passwordFile, "the first line is the password; mode 0600");
+  app.add_flag("--stats", options.stats, "print what was uploaded and drawn, and how long it took");
+  try {
+    app.parse(argc, argv);
+    options.settle = std::chrono::milliseconds(settle);
+    options.server = parseServerAddress(server);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (const std::invalid_argument& error) {
+    fmt::print(stderr, "pixelflex-view: {}\n", error.what());
+    return 2;
+  }
+  try {
+    return view(options);
+  } catch (const std::exception& error) {
+    std::fflush(stdout);
+    fmt::print(stderr, "pixelflex-view: {}\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "devices/display/gl_context.h"
+#include "viewer/plan/pointer_map.h"
+#include "viewer/plan/wall_plan.h"
+#include "viewer/programs/view_options.h"
+#include "viewer/renderer/wall_renderer.h"
+#include "viewer/tiles/frame_belt.h"
+#include "viewer/vnc/session.h"
+
+namespace pixelflex::viewer {
+
+/// The session ended; what() is the reason for people.
+class ViewError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A server's desktop on a wall: session, belt and renderer held together on the render thread, which calls step()
+/// whenever it is woken.
+class WallView {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// `wake` is called from any thread when there is something to do; both references must outlive this.
+  WallView(const ViewOptions& options, const WallPlan& wall, devices::GlContext& context, std::function<void()> wake);
+
+  struct Step {
+    std::vector<std::size_t> drawn;  // outputs whose frame changed
+    bool cursorChanged = false;
+    bool plansChanged = false;  // textures and sizes of all outputs are new
+  };
+  /// Takes what has arrived and draws what it touched. Throws ViewError when the session has ended.
+  Step step();
+
+  /// At least one whole update has been drawn.
+  [[nodiscard]] bool hasPicture() const { return hasPicture_; }
+  [[nodiscard]] Clock::time_point lastChange() const { return lastChange_; }
+  [[nodiscard]] std::uint64_t updates() const { return updates_; }
+  [[nodiscard]] const std::string& desktopName() const { return desktopName_; }
+  [[nodiscard]] devices::Size desktop() const { return desktop_; }
+
+  [[nodiscard]] WallRenderer& renderer() { return renderer_; }
+  [[nodiscard]] const WallPlan& wall() const { return wall_; }
+  /// Null before the first connection.
+  [[nodiscard]] const PointerMap* pointerMap() const { return pointerMap_ ? &*pointerMap_ : nullptr; }
+
+  /// Moves the pointer there, locally at once, and tells the server.
+  void point(glm::ivec2 pointInDesktop, std::uint8_t buttons);
+  void key(std::uint32_t keysym, bool down) { session_.sendKey(keysym, down); }
+  void markAll() { renderer_.markAll(); }
+
+ private:
+  void handle(const SessionEvent& event);
+  void adopt(devices::Size desktop);
+
+  const WallPlan& wall_;
+  WallRenderer renderer_;
+  FrameBelt belt_;
+  Session session_;
+  std::optional<PointerMap> pointerMap_;
+  devices::Size desktop_;
+  std::string desktopName_;
+  bool hasPicture_ = false;
+  bool plansChanged_ = false;
+  std::uint64_t updates_ = 0;
+  Clock::time_point lastChange_ = Clock::now();
+};
+
+}  // namespace pixelflex::viewer
