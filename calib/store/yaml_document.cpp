@@ -256,14 +256,11 @@ YamlDocument parseYaml(std::string_view text, const std::string& file) {
 }
 
 std::string quotedForMessage(std::string_view text) {
-  constexpr std::size_t kShown = 60;
+  std::size_t length = std::min<std::size_t>(text.size(), 60);
+  while (length < text.size() && isContinuation(static_cast<unsigned char>(text[length]))) --length;
   std::string shown = "\"";
-  for (const char c : text.substr(0, kShown)) shown += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  if (text.size() > kShown) {
-    while (isContinuation(static_cast<unsigned char>(shown.back()))) shown.pop_back();
-    shown += "…";
-  }
-  return shown + "\"";
+  for (const char c : text.substr(0, length)) shown += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  return shown + (length < text.size() ? "…\"" : "\"");
 }
 
 }  // namespace pixelflex::calib

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <stdexcept>
@@ -55,14 +56,15 @@ class JpegReader {
   jpeg_error_mgr errors_{};
 };
 
-Image8 decodeJpeg(std::FILE* file) {
+/// At best a block of 64 pixels takes two bits in each component, and the colours are halved both ways.
+constexpr std::uintmax_t kMaxPixelsPerByte = 1024;
+
+Image8 decodeJpeg(std::FILE* file, std::uintmax_t fileBytes) {
   JpegReader reader;
   auto& info = reader.info();
   jpeg_stdio_src(&info, file);
   jpeg_read_header(&info, TRUE);
-  if (info.image_width > kMaxImageExtent || info.image_height > kMaxImageExtent) {
-    throw std::runtime_error("larger than 32768 pixels on a side");
-  }
+  checkPromisedSize(info.image_width, info.image_height, fileBytes * kMaxPixelsPerByte);
   info.out_color_space = JCS_RGB;
   jpeg_start_decompress(&info);
   Image8 image({static_cast<int>(info.output_width), static_cast<int>(info.output_height)}, 3);
@@ -100,7 +102,7 @@ Image8 readPhoto(const std::filesystem::path& path) {
   if (start[0] == 0xFF && start[1] == 0xD8) {
     std::rewind(file.get());
     try {
-      return decodeJpeg(file.get());
+      return decodeJpeg(file.get(), std::filesystem::file_size(path));
     } catch (const std::exception& error) {
       throw ImageError(path.string() + ": damaged JPEG: " + error.what());
     }

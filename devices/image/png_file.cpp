@@ -60,6 +60,9 @@ class PngWriter {
   png_infop info_ = nullptr;
 };
 
+/// Bytes that deflate packs into one at best.
+constexpr std::uintmax_t kMaxDeflation = 1032;
+
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 void checkSignature(std::FILE* file) {
@@ -72,14 +75,17 @@ void checkSignature(std::FILE* file) {
 }
 
 template <class Sample>
-Image<Sample> decode(std::FILE* file) {
+Image<Sample> decode(std::FILE* file, std::uintmax_t fileBytes) {
   checkSignature(file);
   const PngReader reader;
   png_structp png = reader.png();
-  png_set_user_limits(png, kMaxImageExtent, kMaxImageExtent);
+  png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // ours come with a clearer message
   png_init_io(png, file);
   png_set_sig_bytes(png, 8);
   png_read_info(png, reader.info());
+  const unsigned bitsPerPixel = png_get_channels(png, reader.info()) * unsigned{png_get_bit_depth(png, reader.info())};
+  checkPromisedSize(png_get_image_width(png, reader.info()), png_get_image_height(png, reader.info()),
+                    fileBytes * kMaxDeflation * 8 / bitsPerPixel);
   png_set_expand(png);
   if constexpr (sizeof(Sample) == 1) {
     png_set_scale_16(png);
@@ -104,7 +110,7 @@ Image<Sample> read(const std::filesystem::path& path) {
   const File file(std::fopen(path.c_str(), "rbe"), &std::fclose);
   if (file == nullptr) throw ImageError(path.string() + ": cannot open: " + std::strerror(errno));
   try {
-    return decode<Sample>(file.get());
+    return decode<Sample>(file.get(), std::filesystem::file_size(path));
   } catch (const std::exception& error) {
     throw ImageError(path.string() + ": " + error.what());
   }
@@ -156,6 +162,16 @@ void write(const std::filesystem::path& path, const Image<Sample>& image, PngEff
 }
 
 }  // namespace
+
+void checkPromisedSize(std::int64_t width, std::int64_t height, std::uintmax_t pixelsInFile) {
+  if (width > kMaxImageExtent || height > kMaxImageExtent) {
+    throw std::runtime_error("larger than 32768 pixels on a side");
+  }
+  if (width * height > kMaxImageArea) throw std::runtime_error("more than 2^28 pixels");
+  if (static_cast<std::uintmax_t>(width * height) > pixelsInFile) {
+    throw std::runtime_error("truncated: the header promises more pixels than the file can hold");
+  }
+}
 
 Image8 readPng8(const std::filesystem::path& path) {
   return read<std::uint8_t>(path);

@@ -6,15 +6,15 @@
 #include <random>
 
 #include "calib/store/store.h"
-#include "store_values.h"
+#include "tests/unit/store_values.h"
 
-namespace pixelflex::tests {
+namespace pixelflex::testing {
 namespace {
 
 using calib::formatCalibration;
 using calib::parseCalibration;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 calib::Calibration exampleCalibration() {
   return parseCalibration(dataFile("calibration-v1.yaml"), "calibration.yaml");
@@ -91,17 +91,17 @@ void PrintTo(const BadEdit& edit, std::ostream* stream) {
   *stream << edit.from << " -> " << edit.to;
 }
 
-class StoreCalibrationEdit : public testing::TestWithParam<BadEdit> {};
+class StoreCalibrationEdit : public ::testing::TestWithParam<BadEdit> {};
 
 TEST_P(StoreCalibrationEdit, IsRefusedWithAClearMessage) {
   const auto problems = calibrationProblems(exampleWith(GetParam().from, GetParam().to));
-  ASSERT_EQ(problems.size(), 1U) << testing::PrintToString(problems);
+  ASSERT_EQ(problems.size(), 1U) << ::testing::PrintToString(problems);
   EXPECT_THAT(problems[0], HasSubstr(GetParam().message));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Edits, StoreCalibrationEdit,
-    testing::Values(
+    ::testing::Values(
         BadEdit{"fx: 1500.25", "fx: 0", "fx: expected a number"}, BadEdit{"fx: 1500.25\n  ", "", "\"fx\" is missing"},
         BadEdit{"radial: [-0.1, 0.02, 0]", "radial: [-0.1, 0.02]", "expected a list of 3, found 2"},
         BadEdit{"[1.6, 0.01, -20, 0.02, 1.7, -30, 1e-06, 2e-06, 1]", "[1, 2, 3, 2, 4, 6, 0, 0, 1]", "singular"},
@@ -144,4 +144,4 @@ TEST(StoreCalibration, OfAFlatWallIsExact) {
 }
 
 }  // namespace
-}  // namespace pixelflex::tests
+}  // namespace pixelflex::testing

@@ -8,7 +8,7 @@
 
 #include "calib/store/store.h"
 
-namespace pixelflex::tests {
+namespace pixelflex::testing {
 
 /// A saved file of tests/data.
 inline std::string dataFile(const std::string& name) {
@@ -73,4 +73,4 @@ inline calib::Wall flatWall(int columns, int rows) {
   return wall;
 }
 
-}  // namespace pixelflex::tests
+}  // namespace pixelflex::testing

@@ -2,15 +2,15 @@
 #include <gtest/gtest.h>
 
 #include "calib/store/store.h"
-#include "store_values.h"
+#include "tests/unit/store_values.h"
 
-namespace pixelflex::tests {
+namespace pixelflex::testing {
 namespace {
 
 using calib::formatWall;
 using calib::parseWall;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 /// A wall that differs from the defaults in everything.
 calib::Wall richWall() {
@@ -140,17 +140,17 @@ void PrintTo(const BadEdit& edit, std::ostream* stream) {
   *stream << edit.from << " -> " << edit.to;
 }
 
-class StoreWallEdit : public testing::TestWithParam<BadEdit> {};
+class StoreWallEdit : public ::testing::TestWithParam<BadEdit> {};
 
 TEST_P(StoreWallEdit, IsRefusedWithAClearMessage) {
   const auto problems = wallProblems(exampleWith(GetParam().from, GetParam().to));
-  ASSERT_EQ(problems.size(), 1U) << testing::PrintToString(problems);
-  EXPECT_THAT(problems[0], testing::HasSubstr(GetParam().message));
+  ASSERT_EQ(problems.size(), 1U) << ::testing::PrintToString(problems);
+  EXPECT_THAT(problems[0], ::testing::HasSubstr(GetParam().message));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Edits, StoreWallEdit,
-    testing::Values(
+    ::testing::Values(
         BadEdit{"    - {aruco: 3, at: [0, 1500]}\n", "", "fewer than four fiducials: the collineation needs at least"},
         BadEdit{"at: [3000, 1500]", "at: [1500, 0]", "on one line"}, BadEdit{"aruco: 3", "aruco: 2", "listed twice"},
         BadEdit{"at: [0, 1500]", "at: [0, 0]", "another fiducial is at the same place"},
@@ -191,13 +191,13 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(StoreWall, NeedsEachFlatScreenOrNone) {
   calib::Wall wall = flatWall(2, 1);
   wall.projectors[1].flatAt.reset();
-  EXPECT_THAT(wallProblems(formatWall(wall)), ElementsAre(testing::HasSubstr("either all or none")));
+  EXPECT_THAT(wallProblems(formatWall(wall)), ElementsAre(::testing::HasSubstr("either all or none")));
 }
 
 TEST(StoreWall, RefusesAFlatScreenBeyondTheLargestDesktop) {
   calib::Wall wall = flatWall(1, 1);
   wall.projectors[0].flatAt = glm::ivec2(32768 - 1023, 0);
-  EXPECT_THAT(wallProblems(formatWall(wall)), ElementsAre(testing::HasSubstr("beyond pixel 32768")));
+  EXPECT_THAT(wallProblems(formatWall(wall)), ElementsAre(::testing::HasSubstr("beyond pixel 32768")));
   wall.projectors[0].flatAt = glm::ivec2(32768 - 1024, 32768 - 768);
   EXPECT_THAT(wallProblems(formatWall(wall)), IsEmpty());
 }
@@ -208,8 +208,9 @@ TEST(StoreWall, AFlatWallNeedsNoFiducials) {
 
 TEST(StoreWall, RefusesMoreProjectorsThanItCanHold) {
   EXPECT_THAT(wallProblems(formatWall(flatWall(8, 8))), IsEmpty());
-  EXPECT_THAT(wallProblems(formatWall(flatWall(5, 13))), ElementsAre(testing::HasSubstr("expected a list of 1 to 64")));
+  EXPECT_THAT(wallProblems(formatWall(flatWall(5, 13))),
+              ElementsAre(::testing::HasSubstr("expected a list of 1 to 64")));
 }
 
 }  // namespace
-}  // namespace pixelflex::tests
+}  // namespace pixelflex::testing

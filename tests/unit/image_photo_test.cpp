@@ -1,0 +1,170 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+// jpeglib.h needs FILE and size_t declared before it.
+#include <jpeglib.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "devices/image/image_error.h"
+#include "devices/image/photo_file.h"
+#include "devices/image/png_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pixelflex::testing {
+namespace {
+
+using devices::Image16;
+using devices::Image8;
+using devices::ImageError;
+using devices::readPhoto;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+/// A smooth picture, which JPEG keeps almost unchanged.
+Image8 gradient(devices::Size size, int channels) {
+  Image8 image(size, channels);
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      for (int c = 0; c < channels; ++c) {
+        image.at(x, y, c) = static_cast<std::uint8_t>(40 + (c == 0 ? x : c == 1 ? y : (x + y) / 2));
+      }
+    }
+  }
+  return image;
+}
+
+/// A JPEG file of an image with one or three channels.
+std::string jpegOf(const Image8& image) {
+  jpeg_compress_struct info{};
+  jpeg_error_mgr errors{};
+  info.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&info);
+  unsigned char* buffer = nullptr;
+  unsigned long length = 0;
+  jpeg_mem_dest(&info, &buffer, &length);
+  info.image_width = static_cast<JDIMENSION>(image.width());
+  info.image_height = static_cast<JDIMENSION>(image.height());
+  info.input_components = image.channels();
+  info.in_color_space = image.channels() == 1 ? JCS_GRAYSCALE : JCS_RGB;
+  jpeg_set_defaults(&info);
+  jpeg_set_quality(&info, 98, TRUE);
+  jpeg_start_compress(&info, TRUE);
+  for (int y = 0; y < image.height(); ++y) {
+    std::vector<JSAMPLE> row(image.row(y).begin(), image.row(y).end());
+    JSAMPROW pointer = row.data();
+    jpeg_write_scanlines(&info, &pointer, 1);
+  }
+  jpeg_finish_compress(&info);
+  const std::string bytes(reinterpret_cast<const char*>(buffer), length);
+  jpeg_destroy_compress(&info);
+  std::free(buffer);
+  return bytes;
+}
+
+class ImagePhoto : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::filesystem::path path() const { return folder_.path() / "photo"; }
+  void write(const std::string& bytes) const { std::ofstream(path(), std::ios::binary) << bytes; }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(ImagePhoto, ReadsAJpegByItsContent) {
+  const Image8 image = gradient({128, 96}, 3);
+  write(jpegOf(image));
+  const Image8 photo = readPhoto(path());
+  ASSERT_EQ(photo.size(), image.size());
+  ASSERT_EQ(photo.channels(), 3);
+  for (std::size_t i = 0; i < image.samples().size(); ++i) ASSERT_NEAR(photo.samples()[i], image.samples()[i], 8) << i;
+}
+
+TEST_F(ImagePhoto, SpreadsAGreyJpeg) {
+  const Image8 image = gradient({64, 32}, 1);
+  write(jpegOf(image));
+  const Image8 photo = readPhoto(path());
+  ASSERT_EQ(photo.channels(), 3);
+  for (int x = 0; x < 64; ++x) {
+    EXPECT_NEAR(photo.at(x, 9, 0), image.at(x, 9), 3);
+    EXPECT_EQ(photo.at(x, 9, 0), photo.at(x, 9, 1));
+    EXPECT_EQ(photo.at(x, 9, 0), photo.at(x, 9, 2));
+  }
+}
+
+TEST_F(ImagePhoto, ReadsEveryKindOfPngAsThreeChannels) {
+  for (int channels = 1; channels <= 4; ++channels) {
+    const Image8 image = gradient({20, 10}, channels);
+    devices::writePng(path(), image);
+    const Image8 photo = readPhoto(path());
+    ASSERT_EQ(photo.channels(), 3);
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(photo.at(7, 3, c), image.at(7, 3, channels >= 3 ? c : 0));
+  }
+  Image16 deep({2, 1}, 1);
+  deep.at(1, 0) = 0x80FF;
+  devices::writePng(path(), deep);
+  EXPECT_EQ(readPhoto(path()).at(1, 0, 2), 0x80);
+}
+
+TEST_F(ImagePhoto, ATruncatedJpegIsAnErrorWhereverItEnds) {
+  const std::string bytes = jpegOf(gradient({128, 96}, 3));
+  for (std::size_t part = 0; part < 16; ++part) {
+    write(bytes.substr(0, bytes.size() * part / 16));
+    EXPECT_THAT([&] { (void)readPhoto(path()); }, ThrowsMessage<ImageError>(HasSubstr(path().string()))) << part;
+  }
+  write(bytes.substr(0, bytes.size() - 2));
+  EXPECT_THAT([&] { (void)readPhoto(path()); }, ThrowsMessage<ImageError>(HasSubstr("damaged JPEG"))) << "the end mark";
+}
+
+TEST_F(ImagePhoto, ADamagedJpegIsAnErrorOrAnImageButNothingWorse) {
+  const std::string good = jpegOf(gradient({128, 96}, 3));
+  std::mt19937 random(6);
+  for (int round = 0; round < 400; ++round) {
+    std::string bytes = good;
+    for (int i = 0; i < 3; ++i) bytes[random() % bytes.size()] = static_cast<char>(random());
+    write(bytes);
+    try {
+      EXPECT_EQ(readPhoto(path()).channels(), 3);
+    } catch (const ImageError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(path().string()));
+    }
+  }
+}
+
+TEST_F(ImagePhoto, AJpegThatPromisesTooMuchIsRefused) {
+  std::string bytes = jpegOf(gradient({16, 16}, 3));
+  const std::size_t frame = bytes.find("\xff\xc0");
+  ASSERT_NE(frame, std::string::npos);
+  bytes.replace(frame + 5, 4, "\xff\xff\xff\xff");
+  write(bytes);
+  EXPECT_THAT([&] { (void)readPhoto(path()); }, ThrowsMessage<ImageError>(HasSubstr(path().string())));
+  bytes.replace(frame + 5, 4, "\x80\x01\x80\x01");
+  write(bytes);
+  EXPECT_THAT([&] { (void)readPhoto(path()); }, ThrowsMessage<ImageError>(HasSubstr("32768")));
+  bytes.replace(frame + 5, 4, "\x40\x01\x40\x01");
+  write(bytes);
+  EXPECT_THAT([&] { (void)readPhoto(path()); }, ThrowsMessage<ImageError>(HasSubstr("more than 2^28 pixels")));
+  bytes.replace(frame + 5, 4, "\x20\x01\x20\x01");
+  write(bytes);
+  EXPECT_THAT([&] { (void)readPhoto(path()); }, ThrowsMessage<ImageError>(HasSubstr("than the file can hold")));
+}
+
+TEST_F(ImagePhoto, OtherFilesAreRefused) {
+  EXPECT_THAT([&] { (void)readPhoto(path()); }, ThrowsMessage<ImageError>(HasSubstr("cannot open")));
+  write("");
+  EXPECT_THAT([&] { (void)readPhoto(path()); }, ThrowsMessage<ImageError>(HasSubstr("the file is empty")));
+  write("Not a photograph.");
+  EXPECT_THAT([&] { (void)readPhoto(path()); }, ThrowsMessage<ImageError>(HasSubstr("neither a PNG nor a JPEG")));
+  write("\xff");
+  EXPECT_THAT([&] { (void)readPhoto(path()); }, ThrowsMessage<ImageError>(HasSubstr("neither a PNG nor a JPEG")));
+}
+
+}  // namespace
+}  // namespace pixelflex::testing
