@@ -8,3 +8,6 @@ pixelflex_test(renderer_damage_test LABEL gl SOURCES gl/damage_test.cpp LINK pix
 pixelflex_test(display_handle_test LABEL unit SOURCES unit/display_handle_test.cpp LINK pixelflex_display)
 pixelflex_test(display_image_near_test LABEL unit SOURCES unit/display_image_near_test.cpp LINK pixelflex_image)
 pixelflex_test(display_context_test LABEL gl SOURCES gl/context_test.cpp LINK pixelflex_display PkgConfig::EPOXY)
+find_package(X11 REQUIRED)
+pixelflex_test(display_window_test LABEL e2e SOURCES gl/window_test.cpp gl/x_server.cpp
+  LINK pixelflex_display PkgConfig::EPOXY X11::X11)

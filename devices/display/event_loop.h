@@ -1,0 +1,37 @@
+#pragma once
+
+#include <chrono>
+#include <exception>
+#include <optional>
+#include <string>
+
+namespace pixelflex::devices {
+
+/// The connection to the windowing system: one at a time in a process, made, used and destroyed on the main thread.
+/// Windows live shorter than it.
+class EventLoop {
+ public:
+  /// `display`: an X display such as ":0"; none: the environment's. Throws DisplayError when it cannot be reached.
+  explicit EventLoop(const std::optional<std::string>& display = std::nullopt);
+  ~EventLoop();
+  EventLoop(const EventLoop&) = delete;
+  EventLoop& operator=(const EventLoop&) = delete;
+
+  /// Sleeps until an event, wake() or the timeout, then calls the windows' handlers. What a handler throws comes out
+  /// here.
+  void wait(std::optional<std::chrono::duration<double>> timeout = std::nullopt);
+  /// Handles what is there already.
+  void poll();
+
+  /// Ends a wait() at once, or the next one. From any thread, while an EventLoop exists.
+  static void wake();
+
+  /// Windows: keeps what a handler threw until the C library has returned.
+  void keep(std::exception_ptr thrown) { thrown_ = std::move(thrown); }
+
+ private:
+  void rethrow();
+  std::exception_ptr thrown_;
+};
+
+}  // namespace pixelflex::devices

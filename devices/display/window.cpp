@@ -1,0 +1,169 @@
+#include "devices/display/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "devices/display/glfw_error.h"
+#include "devices/display/keysyms.h"
+
+namespace pixelflex::devices {
+
+struct Window::State {
+  EventLoop* loop = nullptr;
+  GLFWwindow* handle = nullptr;
+  Keysyms keysyms;
+  WindowHandlers handlers;
+  GlFramebuffer reader;  // present() reads the shown texture through it
+
+  static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
+
+  /// Calls a handler from a C callback: nothing may be thrown through the C library.
+  template <class Handler, class... Arguments>
+  void call(const Handler& handler, Arguments... arguments) noexcept {
+    if (!handler) return;
+    try {
+      handler(arguments...);
+    } catch (...) {
+      loop->keep(std::current_exception());
+    }
+  }
+};
+
+namespace {
+
+void setHints(const WindowRequest& request) {
+  glfwDefaultWindowHints();
+  glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_API);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
+  glfwWindowHint(GLFW_DEPTH_BITS, 0);
+  glfwWindowHint(GLFW_STENCIL_BITS, 0);
+  glfwWindowHint(GLFW_DECORATED, request.borderless ? GLFW_FALSE : GLFW_TRUE);
+  glfwWindowHint(GLFW_FLOATING, request.borderless ? GLFW_TRUE : GLFW_FALSE);
+  glfwWindowHint(GLFW_RESIZABLE, request.borderless ? GLFW_FALSE : GLFW_TRUE);
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);  // until it is where it belongs
+}
+
+int buttonNumber(int button) {
+  constexpr int kSideButtons = 8;  // X numbers the wheel 4 to 7
+  switch (button) {
+    case GLFW_MOUSE_BUTTON_LEFT:
+      return 1;
+    case GLFW_MOUSE_BUTTON_MIDDLE:
+      return 2;
+    case GLFW_MOUSE_BUTTON_RIGHT:
+      return 3;
+    default:
+      return kSideButtons + button - GLFW_MOUSE_BUTTON_4;
+  }
+}
+
+KeyModifiers modifiersOf(int mods) {
+  return {(mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CAPS_LOCK) != 0, (mods & GLFW_MOD_NUM_LOCK) != 0};
+}
+
+}  // namespace
+
+Window::Window(EventLoop& loop, const WindowRequest& request, const Window* share) : state_(std::make_unique<State>()) {
+  state_->loop = &loop;
+  setHints(request);
+  state_->handle = glfwCreateWindow(request.size.width, request.size.height, request.title.c_str(), nullptr,
+                                    share != nullptr ? share->state_->handle : nullptr);
+  if (state_->handle == nullptr) {
+    throw DisplayError(fmt::format("cannot open the window '{}' of {}x{} with OpenGL 4.5: {}", request.title,
+                                   request.size.width, request.size.height, lastGlfwError()));
+  }
+  glfwSetWindowUserPointer(state_->handle, state_.get());
+  glfwSetInputMode(state_->handle, GLFW_LOCK_KEY_MODS, GLFW_TRUE);
+  if (!request.showPointer) glfwSetInputMode(state_->handle, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
+  if (request.at) glfwSetWindowPos(state_->handle, request.at->x, request.at->y);
+  makeCurrent();
+  glfwSwapInterval(request.paced ? 1 : 0);
+  state_->reader = GlFramebuffer::create();
+  if (request.visible) glfwShowWindow(state_->handle);
+  // A window manager may have moved it while it appeared.
+  if (request.visible && request.at) glfwSetWindowPos(state_->handle, request.at->x, request.at->y);
+}
+
+Window::~Window() {
+  glfwMakeContextCurrent(state_->handle);
+  state_->reader.reset();
+  glfwMakeContextCurrent(nullptr);
+  glfwDestroyWindow(state_->handle);
+}
+
+void Window::setHandlers(WindowHandlers handlers) {
+  state_->handlers = std::move(handlers);
+  GLFWwindow* const window = state_->handle;
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+    State::of(w).call(State::of(w).handlers.pointer, glm::dvec2(x, y));
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int /*mods*/) {
+    State::of(w).call(State::of(w).handlers.button, buttonNumber(button), action != GLFW_RELEASE);
+  });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+    State::of(w).call(State::of(w).handlers.scroll, glm::dvec2(x, y));
+  });
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int /*key*/, int scancode, int action, int mods) {
+    auto& state = State::of(w);
+    const bool pressed = action != GLFW_RELEASE;
+    const auto keysym = pressed ? state.keysyms.press(scancode, modifiersOf(mods)) : state.keysyms.release(scancode);
+    if (keysym) state.call(state.handlers.key, *keysym, pressed);
+  });
+  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
+    auto& state = State::of(w);
+    if (focused == GLFW_TRUE) return;
+    for (const auto keysym : state.keysyms.releaseAll()) state.call(state.handlers.key, keysym, false);
+  });
+  glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { State::of(w).call(State::of(w).handlers.close); });
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { State::of(w).call(State::of(w).handlers.redraw); });
+  glfwSetFramebufferSizeCallback(
+      window, [](GLFWwindow* w, int /*width*/, int /*height*/) { State::of(w).call(State::of(w).handlers.redraw); });
+}
+
+void Window::makeCurrent() {
+  glfwMakeContextCurrent(state_->handle);
+  if (glfwGetCurrentContext() != state_->handle) {
+    throw DisplayError(fmt::format("a window's graphics context is lost: {}", lastGlfwError()));
+  }
+}
+
+Size Window::size() const {
+  Size size;
+  glfwGetFramebufferSize(state_->handle, &size.width, &size.height);
+  return size;
+}
+
+glm::ivec2 Window::position() const {
+  glm::ivec2 position;
+  glfwGetWindowPos(state_->handle, &position.x, &position.y);
+  return position;
+}
+
+void Window::setTitle(const std::string& title) {
+  glfwSetWindowTitle(state_->handle, title.c_str());
+}
+
+void Window::present(GlName texture, Size textureSize) {
+  makeCurrent();
+  const auto window = size();
+  if (window.width == 0 || window.height == 0) return;  // iconified
+  glNamedFramebufferTexture(state_->reader.get(), GL_COLOR_ATTACHMENT0, texture, 0);
+  glDisable(GL_SCISSOR_TEST);
+  // Rows are turned over: a window's first row is its lowest.
+  glBlitNamedFramebuffer(state_->reader.get(), 0, 0, 0, textureSize.width, textureSize.height, 0, window.height,
+                         window.width, 0, GL_COLOR_BUFFER_BIT, window == textureSize ? GL_NEAREST : GL_LINEAR);
+  swap();
+}
+
+void Window::swap() {
+  glfwSwapBuffers(state_->handle);
+}
+
+}  // namespace pixelflex::devices

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "devices/display/event_loop.h"
+#include "devices/display/gl_context.h"
+#include "devices/display/gl_handle.h"
+#include "devices/image/size.h"
+
+namespace pixelflex::devices {
+
+struct WindowRequest {
+  std::string title;
+  Size size;
+  std::optional<glm::ivec2> at;  // top-left corner on the display; none: where the window manager likes
+  bool borderless = false;       // and above others: a projector's picture
+  bool visible = true;           // false: only a GL context
+  bool paced = false;            // present() waits for the monitor's refresh; at most one window of a wall
+  bool showPointer = true;       // the system's own pointer, over this window
+};
+
+/// What happens to a window, called from EventLoop::wait() and poll() on the main thread. Each may be empty.
+struct WindowHandlers {
+  std::function<void(glm::dvec2 position)> pointer;      // window pixels from the top-left corner
+  std::function<void(int button, bool pressed)> button;  // X numbers: 1 left, 2 middle, 3 right, 8 back, 9 forward
+  std::function<void(glm::dvec2 steps)> scroll;          // wheel notches, up and left positive
+  std::function<void(std::uint32_t keysym, bool pressed)> key;  // X11 keysyms, modifiers too; repeats are presses
+  std::function<void()> close;
+  std::function<void()> redraw;  // shown for the first time, uncovered or resized: present() again
+};
+
+/// A window with its GL 4.5 core context.
+class Window final : public GlContext {
+ public:
+  /// Shown and current. `share`: a window whose textures and buffers this one shall see. Throws DisplayError.
+  Window(EventLoop& loop, const WindowRequest& request, const Window* share = nullptr);
+  ~Window() override;
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  void setHandlers(WindowHandlers handlers);
+
+  void makeCurrent() override;
+
+  /// Of the picture, in pixels.
+  [[nodiscard]] Size size() const;
+  /// Of the top-left corner on the display.
+  [[nodiscard]] glm::ivec2 position() const;
+  void setTitle(const std::string& title);
+
+  /// Shows a GL_TEXTURE_2D whose row 0 is the top, filling the window, and swaps. The texture must be finished. Leaves
+  /// this context current.
+  void present(GlName texture, Size textureSize);
+  /// Shows what was drawn into the window's own framebuffer.
+  void swap();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pixelflex::devices

@@ -1,0 +1,252 @@
+// Windows on a real X server: where they are, what they show, and what reaches them from pointer and keyboard.
+#include "devices/display/window.h"
+
+#include <epoxy/gl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <X11/keysym.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <functional>
+#include <thread>
+#include <vector>
+
+#include "devices/display/monitors.h"
+#include "devices/display/window_projector.h"
+#include "tests/gl/x_server.h"
+
+namespace pixelflex::devices {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using Key = std::pair<std::uint32_t, bool>;
+
+constexpr auto kPatience = 20s;
+
+/// Red, green, blue and white quarters, from the top-left clockwise: red, green, white, blue.
+Image8 quarters(Size size) {
+  Image8 image(size, 3);
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const bool right = x >= size.width / 2;
+      const bool low = y >= size.height / 2;
+      image.at(x, y, 0) = right == low ? 255 : 0;
+      image.at(x, y, 1) = right ? 255 : 0;
+      image.at(x, y, 2) = low ? 255 : 0;
+    }
+  }
+  return image;
+}
+
+GlTexture textureOf(const Image8& image) {
+  auto texture = GlTexture::create(GL_TEXTURE_2D);
+  glTextureStorage2D(texture.get(), 1, GL_RGBA8, image.width(), image.height());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTextureSubImage2D(texture.get(), 0, 0, 0, image.width(), image.height(), GL_RGB, GL_UNSIGNED_BYTE,
+                      image.samples().data());
+  glFinish();
+  return texture;
+}
+
+class WindowTest : public ::testing::Test {
+ protected:
+  WindowTest() : server_(800, 600), loop_(server_.display()) {}
+
+  /// Runs the loop until the condition holds; false when it does not for a long time.
+  bool eventually(const std::function<bool()>& condition) {
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      loop_.wait(20ms);
+    }
+    return true;
+  }
+
+  /// Sends input as a person would; the server keeps it until the loop runs.
+  static void xdotool(const std::string& arguments) {
+    EXPECT_EQ(std::system(("xdotool " + arguments).c_str()), 0) << arguments;
+  }
+
+  testing::XServer server_;
+  EventLoop loop_;
+};
+
+TEST_F(WindowTest, ABorderlessWindowIsWhereItWasAskedForAndShowsRowZeroOnTop) {
+  Window window(loop_, {.title = "p1", .size = {200, 120}, .at = glm::ivec2(150, 90), .borderless = true});
+  EXPECT_EQ(window.size(), (Size{200, 120}));
+  GlDebugLog log;
+  const auto picture = textureOf(quarters({200, 120}));
+  ASSERT_TRUE(eventually([&] {
+    window.present(picture.get(), {200, 120});
+    return server_.colourAt(150, 90) == 0xFF0000;
+  }));
+  EXPECT_EQ(window.position(), glm::ivec2(150, 90));
+  EXPECT_EQ(server_.colourAt(349, 90), 0x00FF00U);
+  EXPECT_EQ(server_.colourAt(150, 209), 0x0000FFU);
+  EXPECT_EQ(server_.colourAt(349, 209), 0xFFFFFFU);
+  EXPECT_EQ(server_.colourAt(149, 90), 0U);
+  EXPECT_EQ(server_.colourAt(350, 209), 0U);
+  EXPECT_TRUE(log.take().empty());
+}
+
+TEST_F(WindowTest, AWindowShowsTexturesOfTheOneItSharesWith) {
+  Window renderer(loop_, {.title = "hidden", .size = {16, 16}, .visible = false});
+  const auto picture = textureOf(quarters({64, 64}));
+  {
+    Window window(loop_, {.title = "p", .size = {128, 128}, .at = glm::ivec2(10, 20), .borderless = true}, &renderer);
+    GlDebugLog log;
+    EXPECT_TRUE(eventually([&] {
+      window.present(picture.get(), {64, 64});
+      return server_.colourAt(20, 30) == 0xFF0000 && server_.colourAt(130, 140) == 0xFFFFFF;
+    }));
+    EXPECT_TRUE(log.take().empty());
+  }
+  renderer.makeCurrent();
+  EXPECT_EQ(glIsTexture(picture.get()), GL_TRUE);
+}
+
+TEST_F(WindowTest, PointerButtonsAndWheelArrive) {
+  Window window(loop_, {.title = "p", .size = {300, 200}, .at = glm::ivec2(100, 50), .borderless = true});
+  glm::dvec2 pointer(-1, -1);
+  std::vector<std::pair<int, bool>> buttons;
+  glm::dvec2 wheel(0, 0);
+  window.setHandlers({.pointer = [&](glm::dvec2 p) { pointer = p; },
+                      .button = [&](int button, bool pressed) { buttons.emplace_back(button, pressed); },
+                      .scroll = [&](glm::dvec2 steps) { wheel += steps; }});
+  loop_.wait(100ms);
+  xdotool("mousemove 137 91");
+  EXPECT_TRUE(eventually([&] { return pointer == glm::dvec2(37, 41); })) << pointer.x << ", " << pointer.y;
+  xdotool("click 1 click 2 click 3 click 8 click 4 click 4 click 5 click 4");
+  EXPECT_TRUE(eventually([&] { return buttons.size() >= 8 && wheel.y == 2; }));
+  EXPECT_THAT(buttons, ElementsAre(std::pair(1, true), std::pair(1, false), std::pair(2, true), std::pair(2, false),
+                                   std::pair(3, true), std::pair(3, false), std::pair(8, true), std::pair(8, false)));
+}
+
+TEST_F(WindowTest, KeysArriveAsKeysyms) {
+  Window window(loop_, {.title = "p", .size = {300, 200}, .at = glm::ivec2(100, 50), .borderless = true});
+  std::vector<Key> keys;
+  window.setHandlers({.key = [&](std::uint32_t keysym, bool pressed) { keys.emplace_back(keysym, pressed); }});
+  loop_.wait(200ms);
+  xdotool("key a");
+  EXPECT_TRUE(eventually([&] { return keys.size() == 2; }));
+  EXPECT_THAT(keys, ElementsAre(Key(XK_a, true), Key(XK_a, false)));
+  keys.clear();
+  xdotool("keydown shift keydown a keyup shift keyup a");
+  EXPECT_TRUE(eventually([&] { return keys.size() == 4; }));
+  EXPECT_THAT(keys, ElementsAre(Key(XK_Shift_L, true), Key(XK_A, true), Key(XK_Shift_L, false), Key(XK_A, false)));
+  keys.clear();
+  xdotool("key Return key F5 key Left key comma key ctrl+c key KP_Enter");
+  EXPECT_TRUE(eventually([&] { return keys.size() == 14; }));
+  std::vector<std::uint32_t> presses;
+  for (const auto& [keysym, pressed] : keys) {
+    if (pressed) presses.push_back(keysym);
+  }
+  EXPECT_THAT(presses, ElementsAre(XK_Return, XK_F5, XK_Left, XK_comma, XK_Control_L, XK_c, XK_KP_Enter));
+}
+
+TEST_F(WindowTest, TextTypedArrivesWholeAlsoAfterTheLayoutChanged) {
+  Window window(loop_, {.title = "p", .size = {300, 200}, .at = glm::ivec2(100, 50), .borderless = true});
+  std::string text;
+  window.setHandlers({.key = [&](std::uint32_t keysym, bool pressed) {
+    if (pressed && keysym >= XK_space && keysym <= XK_ydiaeresis) text += static_cast<char>(keysym);
+  }});
+  loop_.wait(200ms);
+  xdotool("type --delay 20 'Pixel_Flex {8x}'");
+  EXPECT_TRUE(eventually([&] { return text == "Pixel_Flex {8x}"; })) << text;
+  text.clear();
+  ASSERT_EQ(std::system("xmodmap -e 'keysym q = eacute'"), 0);
+  xdotool("key eacute");
+  EXPECT_TRUE(eventually([&] { return text == "\xE9"; }));
+}
+
+TEST_F(WindowTest, KeysHeldAreReleasedWhenTheKeyboardGoesElsewhere) {
+  Window window(loop_, {.title = "p", .size = {200, 100}, .at = glm::ivec2(0, 0), .borderless = true});
+  std::vector<Key> keys;
+  window.setHandlers({.key = [&](std::uint32_t keysym, bool pressed) { keys.emplace_back(keysym, pressed); }});
+  loop_.wait(200ms);
+  xdotool("keydown ctrl");
+  EXPECT_TRUE(eventually([&] { return keys.size() == 1; }));
+  const Window other(loop_, {.title = "q", .size = {200, 100}, .at = glm::ivec2(300, 0), .borderless = true});
+  EXPECT_TRUE(eventually([&] { return keys.size() == 2; }));
+  EXPECT_THAT(keys, ElementsAre(Key(XK_Control_L, true), Key(XK_Control_L, false)));
+  xdotool("keyup ctrl");
+}
+
+TEST_F(WindowTest, CloseAndRedrawAreTold) {
+  Window window(loop_, {.title = "room", .size = {300, 200}, .at = glm::ivec2(100, 50)});
+  int closes = 0;
+  int redraws = 0;
+  window.setHandlers({.close = [&] { ++closes; }, .redraw = [&] { ++redraws; }});
+  EXPECT_TRUE(eventually([&] { return redraws > 0; }));
+  ASSERT_TRUE(server_.askToClose("room"));
+  EXPECT_TRUE(eventually([&] { return closes == 1; }));
+}
+
+TEST_F(WindowTest, WhatAHandlerThrowsComesOutOfTheLoop) {
+  Window window(loop_, {.title = "room", .size = {300, 200}, .at = glm::ivec2(100, 50)});
+  window.setHandlers({.close = [] { throw std::runtime_error("from the handler"); }});
+  loop_.wait(100ms);
+  ASSERT_TRUE(server_.askToClose("room"));
+  EXPECT_THROW(eventually([] { return false; }), std::runtime_error);
+}
+
+TEST_F(WindowTest, WakeEndsAWaitFromAnotherThread) {
+  std::thread waker([] {
+    std::this_thread::sleep_for(50ms);
+    EventLoop::wake();
+  });
+  const auto begin = std::chrono::steady_clock::now();
+  loop_.wait(60s);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 30s);
+  waker.join();
+}
+
+TEST_F(WindowTest, AProjectorWindowShowsItsFrames) {
+  WindowProjector projector("p1", loop_, {160, 120}, {40, 30});
+  EXPECT_EQ(projector.name(), "p1");
+  EXPECT_EQ(projector.resolution(), (Size{160, 120}));
+  const auto shows = [&](std::uint32_t colour) {
+    return eventually([&] { return server_.colourAt(41, 31) == colour; });
+  };
+  projector.show(quarters({160, 120}));
+  EXPECT_TRUE(shows(0xFF0000));
+  EXPECT_EQ(server_.colourAt(199, 149), 0xFFFFFFU);
+  Image8 grey({160, 120}, 1);
+  for (auto& sample : grey.samples()) sample = 0x80;
+  projector.show(grey);
+  EXPECT_TRUE(shows(0x808080));
+  projector.blank();
+  EXPECT_TRUE(shows(0));
+  EXPECT_THROW(projector.show(Image8({160, 121}, 3)), std::invalid_argument);
+}
+
+TEST_F(WindowTest, MonitorsAreListed) {
+  const auto monitors = listMonitors(loop_);
+  ASSERT_EQ(monitors.size(), 1U);
+  EXPECT_EQ(monitors[0].size, (Size{800, 600}));
+  EXPECT_EQ(findMonitor(loop_, monitors[0].name), monitors[0]);
+  try {
+    (void)findMonitor(loop_, "HDMI-9");
+    FAIL() << "found";
+  } catch (const DisplayError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("'HDMI-9'"));
+    EXPECT_THAT(error.what(), HasSubstr(monitors[0].name));
+  }
+}
+
+TEST(EventLoopTest, SaysThatThereIsNoDisplay) {
+  try {
+    const EventLoop loop(":4711");
+    FAIL() << "opened";
+  } catch (const DisplayError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(":4711"));
+    EXPECT_THAT(error.what(), HasSubstr("--headless"));
+  }
+}
+
+}  // namespace
+}  // namespace pixelflex::devices
