@@ -22,7 +22,7 @@ struct Hold {
   double yaw, pitch, roll;
 };
 
-constexpr std::array<Hold, 15> kHolds{{{0.50, 0.50, 0.62, 0, 0, 0},
+constexpr std::array<Hold, 15> kHolds{{{0.50, 0.50, 0.62, 4, -3, 5},
                                        {0.00, 0.00, 0.36, 12, -10, 3},
                                        {1.00, 0.00, 0.36, -12, -10, -4},
                                        {0.00, 1.00, 0.36, 12, 10, 2},
