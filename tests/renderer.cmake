@@ -11,3 +11,4 @@ pixelflex_test(display_context_test LABEL gl SOURCES gl/context_test.cpp LINK pi
 find_package(X11 REQUIRED)
 pixelflex_test(display_window_test LABEL e2e SOURCES gl/window_test.cpp gl/x_server.cpp
   LINK pixelflex_display PkgConfig::EPOXY X11::X11)
+pixelflex_test(renderer_room_view_test LABEL gl SOURCES gl/room_view_test.cpp LINK pixelflex_renderer PkgConfig::EPOXY)
