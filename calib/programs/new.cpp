@@ -6,6 +6,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "calib/programs/new_wall.h"
 #include "calib/simulate/rig.h"
 #include "calib/store/yaml_reader.h"
+#include "devices/display/event_loop.h"
+#include "devices/display/monitors.h"
 
 namespace {
 
@@ -22,17 +25,32 @@ constexpr int kWrongUsage = 2;
 
 struct Options {
   std::string wall;
-  std::string rig;
-  std::string flat;
+  std::optional<std::string> rig;
+  std::optional<std::string> flat;
 };
 
-std::vector<calib::NewFile> filesOf(const Options& options) {
-  if (!options.flat.empty()) return calib::filesOfFlatWall(calib::parseFlatGrid(options.flat));
-  if (!options.rig.empty()) {
-    const std::string text = calib::readStoreFile(options.rig);
-    return calib::filesOfRig(calib::parseRig(text, options.rig), text);
+std::vector<calib::FoundMonitor> foundMonitors() {
+  const char* display = std::getenv("DISPLAY");
+  if (display == nullptr || *display == '\0') {
+    throw std::runtime_error("no display to look for monitors on: set DISPLAY, or use --rig or --flat");
   }
-  throw std::runtime_error("no display to look for monitors on: set DISPLAY, or use --rig or --flat");
+  const pixelflex::devices::EventLoop loop;
+  std::vector<calib::FoundMonitor> found;
+  for (const auto& monitor : pixelflex::devices::listMonitors(loop)) found.push_back({monitor.name, monitor.size});
+  if (found.empty()) {
+    throw std::runtime_error(std::string(display) +
+                             ": no monitor is switched on; switch one on, or use --rig or --flat");
+  }
+  return found;
+}
+
+std::vector<calib::NewFile> filesOf(const Options& options) {
+  if (options.flat) return calib::filesOfFlatWall(calib::parseFlatGrid(*options.flat));
+  if (options.rig) {
+    const std::string text = calib::readStoreFile(*options.rig);
+    return calib::filesOfRig(calib::parseRig(text, *options.rig), text);
+  }
+  return calib::filesOfMonitors(foundMonitors());
 }
 
 void make(const Options& options) {
@@ -41,10 +59,10 @@ void make(const Options& options) {
   std::cout << options.wall << ": made";
   for (const auto& file : files) std::cout << ' ' << file.path.string();
   std::cout << '\n';
-  if (options.flat.empty()) {
-    std::cout << "Look through " << options.wall << "/wall.yaml, then: pixelflex calibrate " << options.wall << '\n';
-  } else {
+  if (options.flat) {
     std::cout << "Next: pixelflex view " << options.wall << " SERVER\n";
+  } else {
+    std::cout << "Look through " << options.wall << "/wall.yaml, then: pixelflex calibrate " << options.wall << '\n';
   }
 }
 
@@ -60,7 +78,7 @@ int main(int argc, char** argv) try {
   app.set_version_flag("--version", "pixelflex-new " PIXELFLEX_VERSION);
   try {
     app.parse(argc, argv);
-    if (!options.flat.empty()) (void)calib::parseFlatGrid(options.flat);
+    if (options.flat) (void)calib::parseFlatGrid(*options.flat);
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {

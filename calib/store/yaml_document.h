@@ -11,7 +11,7 @@ namespace pixelflex::calib {
 
 /// Bounds on what a file of the store may ask of us.
 inline constexpr std::size_t kMaxStoreBytes = std::size_t{64} << 20;
-inline constexpr std::size_t kMaxYamlNodes = 4'000'000;
+inline constexpr std::size_t kMaxYamlNodes = 2'000'000;
 inline constexpr std::size_t kMaxYamlDepth = 32;
 inline constexpr std::size_t kMaxProblems = 200;
 
