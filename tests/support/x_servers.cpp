@@ -47,9 +47,10 @@ std::string readDisplayNumber(int fd) {
   return text;
 }
 
+// In VNC's own format, which x11vnc and Xvnc share.
 void writePassword(const std::filesystem::path& path, const std::string& password) {
-  const Output output = run({"sh", "-c", "echo \"$0\" | vncpasswd -f > \"$1\"", password, path.string()});
-  if (output.status != 0) throw std::runtime_error("vncpasswd: " + output.text);
+  const Output output = run({"x11vnc", "-storepasswd", password, path.string()});
+  if (output.status != 0) throw std::runtime_error("x11vnc -storepasswd: " + output.text);
 }
 
 std::vector<std::string> xvncCommand(const XvncOptions& options, const TemporaryFolder& folder, int port) {

@@ -169,6 +169,26 @@ TEST(Session, ReportsPointerShapes) {
   EXPECT_EQ(std::get<CursorShape>(mirror.events()[3]), (CursorShape{{0, 0}, 0, 0, {}}));
 }
 
+TEST(Session, TakesOverAPointerThatTheServerDraws) {
+  std::vector<std::uint8_t> first;
+  std::vector<std::uint8_t> second;
+  {
+    const Message hidden = Message().update(1).rect(0, 0, 0, 0, kAlphaCursor).u32(0);
+    const FakeVncServer server([&](FakeConnection& client) {
+      const std::size_t encodings = client.shakeHands({400, 300}).size();
+      client.send(hidden);
+      first = client.receive(10 + 6 + encodings);  // request, pointer, SetEncodings
+      client.send(hidden);
+      second = client.receive(10);  // only the request
+    });
+    DesktopMirror mirror(server.address());
+    ASSERT_TRUE(mirror.pumpUntil([&] { return mirror.last<Closed>().has_value(); })) << mirror.summary();
+  }
+  ASSERT_GT(first.size(), 16u);
+  EXPECT_THAT(std::vector<std::uint8_t>(first.begin() + 10, first.begin() + 17), ElementsAre(5, 0, 0, 200, 0, 150, 2));
+  EXPECT_EQ(second.size(), 10u);
+}
+
 TEST(Session, ReportsBellClipboardAndPointerPosition) {
   const FakeVncServer server(sends({8, 8}, Message()
                                                .u8(2)

@@ -85,7 +85,9 @@ struct RfbClient::State {
   Region damage;
   bool insideUpdate = false;
   bool updateFinished = false;
-  bool pseudoRect = false;  // the next rectangle reported is none
+  bool pointerUsed = false;   // this session has put it somewhere
+  bool pointerDrawn = false;  // by the server, into the desktop
+  bool pseudoRect = false;    // the next rectangle reported is none
   std::optional<SessionError> failure;
   std::vector<SessionEvent> events;
 };
@@ -270,6 +272,7 @@ void RfbClient::State::readAlphaCursor(devices::Size size, int hotX, int hotY) {
   std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(size.area()));
   read(rgba);
   CursorShape shape = cursorFromPremultiplied(size, rgba);
+  pointerDrawn = size.area() == 0;  // or the pointer is hidden, which looks the same
   shape.hotX = hotX;
   shape.hotY = hotY;
   events.emplace_back(std::move(shape));
@@ -388,6 +391,7 @@ FrameView RfbClient::frame() const {
 void RfbClient::send(const Input& input) {
   rfbClient* client = state_->client;
   bool sent = true;
+  state_->pointerUsed |= std::holds_alternative<PointerInput>(input);
   if (const auto* pointer = std::get_if<PointerInput>(&input)) {
     sent = SendPointerEvent(client, std::clamp(pointer->x, 0, client->width - 1),
                             std::clamp(pointer->y, 0, client->height - 1), pointer->buttons);
@@ -399,6 +403,13 @@ void RfbClient::send(const Input& input) {
     sent = SendClientCutText(client, text.data(), static_cast<int>(text.size()));
   }
   if (!sent) state_->fail();
+}
+
+// Asking for the encodings once more makes the server remove what it has drawn.
+void RfbClient::claimPointer() {
+  if (!state_->pointerDrawn || state_->pointerUsed) return;
+  send(PointerInput{state_->pixelsSize.width / 2, state_->pixelsSize.height / 2, 0});
+  state_->write(setEncodingsMessage(state_->options.lossless));
 }
 
 }  // namespace pixelflex::viewer

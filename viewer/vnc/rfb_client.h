@@ -40,6 +40,8 @@ class RfbClient {
   [[nodiscard]] FrameView frame() const;
 
   void send(const Input& input);
+  /// When the server draws the pointer into the desktop although nobody else uses it, takes it over, once.
+  void claimPointer();
 
  private:
   struct State;

@@ -137,6 +137,7 @@ class Session::Worker {
   void receive(RfbClient& client, const std::stop_token& stop) {
     const auto received = std::chrono::steady_clock::now();
     client.handleMessage();
+    if (options_.claimPointer && !options_.viewOnly) client.claimPointer();
     post(client.takeEvents());
     std::optional<Region> damage = client.takeFinishedUpdate();
     if (!damage || damage->empty()) return;

@@ -27,6 +27,10 @@ struct SessionOptions {
   bool shared = true;
   /// False: the server may send JPEG, which saves bandwidth and alters pixels.
   bool lossless = true;
+  /// TigerVNC's server draws the pointer into the desktop for every viewer but the one that put it where it is. Set,
+  /// the session puts it into the middle of the desktop when it connects to such a server, where it is on a fresh
+  /// desktop anyway, and the picture is clean. Not when only viewing.
+  bool claimPointer = true;
   /// For the connection, and once more for the handshake.
   std::chrono::milliseconds connectTimeout{10'000};
 };

@@ -21,9 +21,9 @@ struct Resized {
   bool operator==(const Resized&) const = default;
 };
 
-/// The pointer's picture. The server never draws it into the desktop: whoever shows the desktop draws it on top.
+/// The pointer's picture, which is not part of the desktop's: whoever shows the desktop draws it on top.
 struct CursorShape {
-  devices::Size size;              // 0x0: the pointer is hidden
+  devices::Size size;              // 0x0: hidden, or TigerVNC draws it into the desktop, see SessionOptions
   int hotX = 0, hotY = 0;          // the pixel that points
   std::vector<std::uint8_t> rgba;  // row by row, four bytes a pixel, alpha straight (not premultiplied)
   bool operator==(const CursorShape&) const = default;
