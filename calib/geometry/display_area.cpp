@@ -25,8 +25,13 @@ Bounds boundsOf(std::span<const Outline> footprints) {
   return bounds;
 }
 
-/// The x positions, sorted, where a horizontal line crosses the outline; inside is between each pair.
+/// The x positions, sorted, where a horizontal line crosses the outline; inside is between each pair. A line along the
+/// outline's top or bottom counts as inside.
 std::vector<double> crossings(const Outline& outline, double y) {
+  const auto [top, bottom] = std::ranges::minmax(outline, {}, &glm::dvec2::y);
+  const double hair = 1e-9 * (bottom.y - top.y);
+  if (y < top.y - hair || y > bottom.y + hair) return {};
+  y = std::clamp(y, top.y + hair, bottom.y - hair);
   std::vector<double> xs;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const glm::dvec2 a = outline[i];
@@ -149,8 +154,9 @@ Coverage::Coverage(std::span<const Outline> footprints, double pixelsPerUnit) : 
     for (const auto& outline : footprints) {
       const auto xs = crossings(outline, origin_.y + y / pixelsPerUnit_);
       for (std::size_t i = 0; i + 1 < xs.size(); i += 2) {
-        const int from = std::max(0, static_cast<int>(std::ceil((xs[i] - origin_.x) * pixelsPerUnit_)));
-        const int to = std::min(width_, static_cast<int>(std::floor((xs[i + 1] - origin_.x) * pixelsPerUnit_)));
+        constexpr double kHair = 1e-6;  // cells: a corner on the outline is inside, whatever the rounding
+        const int from = std::max(0, static_cast<int>(std::ceil((xs[i] - origin_.x) * pixelsPerUnit_ - kHair)));
+        const int to = std::min(width_, static_cast<int>(std::floor((xs[i + 1] - origin_.x) * pixelsPerUnit_ + kHair)));
         for (int x = from; x <= to; ++x) below[static_cast<std::size_t>(x)] = 1;
       }
     }

@@ -1,0 +1,14 @@
+pixelflex_library(pixelflex_test_calibration
+  HEADERS support_calibration/calibrated_rig.h support_calibration/registration.h
+  SOURCES support_calibration/calibrated_rig.cpp support_calibration/registration.cpp
+  PUBLIC pixelflex_procedure pixelflex_simulate)
+
+pixelflex_test(registration_test LABEL gl TIMEOUT 300
+  SOURCES accuracy/report_rig_test.cpp
+  LINK pixelflex_test_calibration pixelflex_test_support pixelflex_plan pixelflex_renderer)
+
+pixelflex_test(geometry_test LABEL unit
+  SOURCES unit/geometry_mapping_test.cpp unit/geometry_display_test.cpp unit/geometry_mesh_test.cpp
+  LINK pixelflex_geometry)
+pixelflex_test(estimate_test LABEL unit SOURCES unit/estimate_test.cpp LINK pixelflex_estimate pixelflex_patterns)
+pixelflex_test(photometric_test LABEL unit SOURCES unit/photometric_test.cpp LINK pixelflex_photometric)

@@ -1,0 +1,28 @@
+#include "tests/support_calibration/calibrated_rig.h"
+
+#include "calib/capture/live_photographs.h"
+#include "devices/image/atomic_file.h"
+
+namespace pixelflex::calib {
+
+CalibratedRig calibrateRig(SimulatedWall& room, const std::filesystem::path& folder) {
+  CalibratedRig result;
+  result.wall = wallOfRig(room.rig(), "rig.yaml");
+  std::vector<devices::Projector*> projectors;
+  for (std::size_t i = 0; i < room.projectorCount(); ++i) projectors.push_back(&room.projector(i));
+  for (const auto& projector : room.rig().projectors) {
+    devices::writeFileAtomically(folder / "readings" / (projector.name + ".csv"), readingsOfProjector(projector, 1));
+  }
+  saveWall(folder, result.wall);
+  LivePhotographs photographs(room.camera(), projectors, room.person(), folder / "captures", "test",
+                              room.rig().checkerboardPoses);
+  RecordedProgress progress;
+  Procedure procedure(folder, result.wall, {}, &photographs, progress);
+  procedure.run({.goOnWithoutFailed = true});
+  procedure.save();
+  result.calibration = procedure.calibration();
+  result.warnings = progress.warnings;
+  return result;
+}
+
+}  // namespace pixelflex::calib
