@@ -10,6 +10,7 @@
 #include "calib/store/store.h"
 #include "viewer/programs/headless.h"
 #include "viewer/programs/view_options.h"
+#include "viewer/programs/windows.h"
 
 namespace {
 
@@ -19,7 +20,7 @@ using namespace pixelflex::viewer;
 int view(const ViewOptions& options) {
   const WallPlan wall(options.wall, calib::loadWall(options.wall), calib::loadCalibration(options.wall),
                       options.projectors);
-  return runHeadless(options, wall);
+  return options.headless ? runHeadless(options, wall) : runWindows(options, wall);
 }
 
 }  // namespace

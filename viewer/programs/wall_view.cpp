@@ -25,8 +25,7 @@ std::optional<std::string> readPassword(const ViewOptions& options) {
 }
 
 SessionOptions sessionOptions(const ViewOptions& options) {
-  return {
-      .server = options.server, .password = readPassword(options), .viewOnly = options.viewOnly};
+  return {.server = options.server, .password = readPassword(options), .viewOnly = options.viewOnly};
 }
 
 }  // namespace
