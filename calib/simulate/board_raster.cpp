@@ -60,6 +60,11 @@ class BoardPainter {
   [[nodiscard]] Share gather(glm::dvec2 topLeft, glm::dvec2 topRight, glm::dvec2 bottomLeft,
                              glm::dvec2 bottomRight) const {
     constexpr int kFine = 6;
+    const glm::ivec2 square = squareOf(topLeft);
+    if (isInside(square) && square == squareOf(topRight) && square == squareOf(bottomLeft) &&
+        square == squareOf(bottomRight)) {
+      return {1, isBlack(square) ? kBlack : kWhite};
+    }
     Share share;
     for (int k = 0; k < kFine * kFine; ++k) {
       const double right = (k % kFine + 0.5) / kFine;
@@ -71,14 +76,20 @@ class BoardPainter {
   }
 
  private:
+  [[nodiscard]] glm::ivec2 squareOf(glm::dvec2 pointOnBoard) const {
+    const glm::dvec2 cell = pointOnBoard / board_.square + 0.5 * glm::dvec2(board_.columns + 1, board_.rows + 1);
+    return {glm::floor(glm::clamp(cell, glm::dvec2(-2), glm::dvec2(1000)))};
+  }
+  [[nodiscard]] bool isInside(glm::ivec2 square) const {
+    return square.x >= 0 && square.y >= 0 && square.x <= board_.columns && square.y <= board_.rows;
+  }
+  [[nodiscard]] static bool isBlack(glm::ivec2 square) { return (square.x + square.y) % 2 == 0; }
+
   void add(glm::dvec2 pointOnBoard, Share& share) const {
     if (std::abs(pointOnBoard.x) > half_.x || std::abs(pointOnBoard.y) > half_.y) return;
-    const glm::dvec2 squares(board_.columns + 1, board_.rows + 1);
-    const glm::dvec2 cell = pointOnBoard / board_.square + 0.5 * squares;
-    const bool border = cell.x < 0 || cell.y < 0 || cell.x >= squares.x || cell.y >= squares.y;
-    const bool black = !border && (static_cast<int>(cell.x) + static_cast<int>(cell.y)) % 2 == 0;
+    const glm::ivec2 square = squareOf(pointOnBoard);
     share.cover += 1;
-    share.reflectance += black ? kBlack : kWhite;
+    share.reflectance += isInside(square) && isBlack(square) ? kBlack : kWhite;
   }
 
   Checkerboard board_;

@@ -37,11 +37,14 @@ bool onScreen(const Rig& rig, glm::dvec2 pointInWall) {
   return off.x >= 0 && off.y >= 0 && off.x < rig.screenSize.x && off.y < rig.screenSize.y;
 }
 
+/// Within reach of its paper at any angle, and a little more.
+bool isNear(const SimulatedMarker& marker, glm::dvec2 pointInWall) {
+  const glm::dvec2 off = glm::abs(pointInWall - marker.centre);
+  return std::max(off.x, off.y) < 1.2 * marker.side;
+}
+
 bool nearMarker(const Rig& rig, glm::dvec2 pointInWall) {
-  return std::ranges::any_of(rig.markers, [&](const SimulatedMarker& marker) {
-    const glm::dvec2 off = glm::abs(pointInWall - marker.centre);
-    return std::max(off.x, off.y) < 1.2 * marker.side;  // its paper at any angle, and a little more
-  });
+  return std::ranges::any_of(rig.markers, [&](const auto& marker) { return isNear(marker, pointInWall); });
 }
 
 /// What a pixel's corner lies on; pixels whose corners differ, or that are near a marker, are sampled finely.
@@ -109,6 +112,7 @@ class Looker {
 
 double reflectanceOfWall(const Rig& rig, glm::dvec2 pointInWall) {
   for (const auto& marker : rig.markers) {
+    if (!isNear(marker, pointInWall)) continue;
     const glm::dvec2 at = inMarker(marker, pointInWall);
     if (within(at, 0, 1)) return arucoIsWhite(marker.aruco, at.x, at.y) ? kPaper : kInk;
     if (within(at, -kQuietZone, 1 + kQuietZone)) return kPaper;

@@ -1,8 +1,8 @@
 #include "calib/simulate/sensor.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "calib/simulate/parallel.h"
@@ -23,7 +23,7 @@ std::vector<float> makeNormalTable() {
   for (std::size_t i = 0; i < kTableSize; ++i) {
     const double wanted = (static_cast<double>(i) + 0.5) / static_cast<double>(kTableSize);
     for (int step = 0; step < 8; ++step) {  // Newton's iteration from the neighbour
-      const double density = std::exp(-0.5 * x * x) / std::sqrt(2 * 3.14159265358979323846);
+      const double density = std::exp(-0.5 * x * x) / std::sqrt(2 * std::numbers::pi);
       x += std::clamp((wanted - 0.5 * std::erfc(-x / std::sqrt(2.0))) / density, -0.5, 0.5);
     }
     values[i] = x;
@@ -56,16 +56,35 @@ struct Noise {
   float read;         // of full scale squared
 };
 
-/// In place: part of full scale with noise added. Four draws from each random number.
-void addNoise(std::vector<float>& line, Noise noise, Random random) {
+/// Four draws from each random number.
+void drawNormals(std::vector<float>& normals, Random random) {
   const float* table = normalTable().data();
-  for (std::size_t i = 0; i < line.size(); i += 4) {
+  for (std::size_t i = 0; i < normals.size(); i += 4) {
     const std::uint64_t bits = random.next();
-    const std::size_t count = std::min<std::size_t>(4, line.size() - i);
-    for (std::size_t k = 0; k < count; ++k) {
-      const float deviation = std::sqrt(std::max(0.0F, line[i + k]) * noise.perElectron + noise.read);
-      line[i + k] += deviation * table[(bits >> (16 * k)) & (kTableSize - 1)];
-    }
+    const std::size_t count = std::min<std::size_t>(4, normals.size() - i);
+    for (std::size_t k = 0; k < count; ++k) normals[i + k] = table[(bits >> (16 * k)) & (kTableSize - 1)];
+  }
+}
+
+/// Light to parts of full scale, with noise, clipped to 0..1. Plain arithmetic that the compiler can do eight at a
+/// time.
+void addNoise(const float* light, float scale, Noise noise, const std::vector<float>& normals,
+              std::vector<float>& line) {
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const float signal = std::min(1.0F, std::max(0.0F, light[i] * scale));
+    const float level = signal + std::sqrt(signal * noise.perElectron + noise.read) * normals[i];
+    line[i] = std::min(1.0F, std::max(0.0F, level));
+  }
+}
+
+/// 0..1 to codes; `curve` is empty for a linear camera.
+void quantise(const std::vector<float>& line, const std::vector<std::uint8_t>& curve, std::uint8_t* out) {
+  if (curve.empty()) {
+    for (std::size_t i = 0; i < line.size(); ++i) out[i] = static_cast<std::uint8_t>(line[i] * 255 + 0.5F);
+    return;
+  }
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    out[i] = curve[static_cast<std::size_t>(line[i] * static_cast<float>(kCurveSteps) + 0.5F)];
   }
 }
 
@@ -74,23 +93,16 @@ void addNoise(std::vector<float>& line, Noise noise, Random random) {
 devices::Image8 expose(const SimulatedCameraSpec& camera, const devices::ImageF& radiance, double exposure,
                        std::uint64_t noiseSeed) {
   devices::Image8 photo(radiance.size(), 3);
-  const auto scale = static_cast<float>(exposure);
-  const auto curve = makeCurve(camera.gamma);
-  const bool linear = camera.gamma == 1.0;
+  const auto curve = camera.gamma == 1.0 ? std::vector<std::uint8_t>() : makeCurve(camera.gamma);
   const Noise noise{static_cast<float>(1 / camera.fullWell),
                     static_cast<float>(camera.readNoise * camera.readNoise / (camera.fullWell * camera.fullWell))};
   inTwoHalves(photo.height(), [&](int first, int last) {
-    std::vector<float> line(radiance.row(0).size());
+    std::vector<float> normals(radiance.row(0).size());
+    std::vector<float> line(normals.size());
     for (int y = first; y < last; ++y) {
-      std::ranges::transform(radiance.row(y), line.begin(),
-                             [scale](float light) { return std::min(1.0F, light * scale); });
-      addNoise(line, noise, Random(noiseSeed ^ (0x51ed2701ULL * static_cast<std::uint64_t>(y + 1))));
-      const auto quantise = [&](float part) {
-        const float level = std::clamp(part, 0.0F, 1.0F);
-        if (linear) return static_cast<std::uint8_t>(level * 255 + 0.5F);
-        return curve[static_cast<std::size_t>(level * static_cast<float>(kCurveSteps) + 0.5F)];
-      };
-      std::ranges::transform(line, photo.row(y).begin(), quantise);
+      drawNormals(normals, Random(noiseSeed ^ (0x51ed2701ULL * static_cast<std::uint64_t>(y + 1))));
+      addNoise(radiance.row(y).data(), static_cast<float>(exposure), noise, normals, line);
+      quantise(line, curve, photo.row(y).data());
     }
   });
   return photo;
