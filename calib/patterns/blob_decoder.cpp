@@ -113,7 +113,7 @@ class Decoder {
     cutOff_ = box.x <= 1 || box.y <= 1 || box.br().x >= frame_.cols - 1 || box.br().y >= frame_.rows - 1;
     cv::Mat saturated = white_ >= kSaturatedCode;
     saturated &= frame_;
-    saturatedShare_ = double(cv::countNonZero(saturated)) / cv::countNonZero(frame_);
+    result_.saturatedShare = double(cv::countNonZero(saturated)) / cv::countNonZero(frame_);
     return true;
   }
 
@@ -266,7 +266,7 @@ class Decoder {
     if (result_.blobs.size() == static_cast<std::size_t>(kBlobCount)) return;
     const double cameraSigma =
         layout_.sigma() * std::sqrt(cv::countNonZero(frame_) / static_cast<double>(layout_.resolution().area()));
-    if (saturatedShare_ > 0.05) {
+    if (result_.saturatedShare > 0.05) {
       result_.hint = "the photograph of white is over-exposed: shorten the exposure until white stays below 85 %";
     } else if (cutOff_) {
       result_.hint = "part of the projector's frame lies outside the photograph: move the camera back or turn it";
@@ -292,7 +292,6 @@ class Decoder {
   cv::Mat frame_;  // mask of the projector's lit frame
   cv::Mat light_;  // of the photograph of all blobs
   double peak_ = 0;
-  double saturatedShare_ = 0;
   bool cutOff_ = false;
   int misread_ = 0;
   Homography cameraFromProjector_;  // undistorted camera

@@ -24,6 +24,7 @@ struct DecodedBlobs {
   std::vector<DecodedBlob> blobs;  // by rising id; each id at most once
   int located = 0;                 // spots of light found before they were told apart
   double cameraScale = 0;          // camera pixels per projector pixel
+  double saturatedShare = 0;       // of the lit frame, in the photograph of white
   std::string hint;                // when blobs are missing: the probable cause and what to do; else empty
 };
 

@@ -26,6 +26,8 @@ namespace {
 
 /// Below this many of the hundred blobs a projector counts as not found.
 constexpr int kFewestBlobs = 60;
+/// Saturated share of the lit area in the photograph of white from which the photographs are refused.
+constexpr double kMostSaturated = 0.05;
 
 std::string rounded(double value, int digits) {
   std::array<char, 64> text{};
@@ -267,6 +269,15 @@ std::string Procedure::runProjectors(const ProcedureOptions& options) {
 void Procedure::addProjector(const ProjectorConfig& config, const DecodedBlobs& decoded,
                              const ProcedureOptions& options) {
   const int found = static_cast<int>(decoded.blobs.size());
+  if (decoded.saturatedShare > kMostSaturated) {
+    // Spots may still be found, but where white is clipped their light cannot be divided by it.
+    reportFailure(config.name,
+                  patternPath(config.name, Pattern::kWhite).string() +
+                      ".png is over-exposed: " + rounded(100 * decoded.saturatedShare, 0) +
+                      " % of the lit area is saturated; shorten the exposure until white stays below 85 %",
+                  options);
+    return;
+  }
   if (found < kFewestBlobs) {
     reportFailure(config.name,
                   std::to_string(found) + " of " + std::to_string(kBlobCount) + " blobs found; " + decoded.hint,

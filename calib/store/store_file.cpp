@@ -65,7 +65,7 @@ bool hasCalibration(const std::filesystem::path& folder) {
 Calibration loadCalibration(const std::filesystem::path& folder) {
   const auto path = calibrationFile(folder);
   if (!hasCalibration(folder)) {
-    fail(path, "the wall is not calibrated yet; run: pixelflex calibrate " + folder.string());
+    fail(path, "the wall is not calibrated yet: run pixelflex calibrate " + folder.string());
   }
   return parseCalibration(readStoreFile(path.string()), path.string());
 }

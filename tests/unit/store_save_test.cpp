@@ -49,7 +49,7 @@ TEST(StoreSave, MissingFilesSayWhatToDo) {
   const TemporaryFolder folder;
   const std::string path = folder.path().string();
   EXPECT_EQ(messageOf([&] { (void)loadCalibration(path); }),
-            path + "/calibration.yaml: the wall is not calibrated yet; run: pixelflex calibrate " + path);
+            path + "/calibration.yaml: the wall is not calibrated yet: run pixelflex calibrate " + path);
   EXPECT_EQ(messageOf([&] { (void)loadWall(path); }),
             path + "/wall.yaml: there is no such file; make the wall's folder with: pixelflex new " + path);
 }

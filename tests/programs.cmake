@@ -1,0 +1,10 @@
+# The programs as users run them, on simulated walls and against real VNC servers.
+pixelflex_test(calibrate_cli_test LABEL e2e TIMEOUT 240
+  SOURCES e2e/calibrate_cli_test.cpp e2e/calibrate_photos_test.cpp e2e/calibrate_layout_test.cpp
+  LINK pixelflex_test_support pixelflex_simulate pixelflex_store)
+add_dependencies(calibrate_cli_test pixelflex-new pixelflex-calibrate)
+
+pixelflex_test(view_cli_test LABEL e2e TIMEOUT 240
+  SOURCES e2e/view_exact_test.cpp e2e/view_errors_test.cpp e2e/view_idle_test.cpp e2e/view_input_test.cpp
+  LINK pixelflex_test_support pixelflex_store)
+add_dependencies(view_cli_test pixelflex-new pixelflex-calibrate pixelflex-view)
