@@ -16,16 +16,16 @@ std::vector<Sample> cornerSamples(glm::dvec2 at, devices::Size resolution) {
   return samples;
 }
 
-ProjectorCalibration flatProjector(const ProjectorConfig& config) {
-  assert(config.flatAt);
-  const glm::dvec2 at(*config.flatAt);
+ProjectorCalibration flatProjector(const ProjectorConfig& config, glm::ivec2 flatAt) {
+  const glm::dvec2 at(flatAt);
   ProjectorCalibration projector;
   projector.name = config.name;
   projector.resolution = config.resolution;
   projector.samples = cornerSamples(at, config.resolution);
   projector.model.projectorFromWall = {1, 0, -at.x, 0, 1, -at.y, 0, 0, 1};
-  projector.quality = {.found = 4, .shown = 4};
-  projector.flatAt = config.flatAt;
+  projector.quality.found = 4;
+  projector.quality.shown = 4;
+  projector.flatAt = flatAt;
   return projector;
 }
 
@@ -36,12 +36,12 @@ Calibration flatCalibration(const Wall& wall) {
   Calibration calibration;
   devices::Size desktop;
   for (const auto& config : wall.projectors) {
-    calibration.projectors.push_back(flatProjector(config));
-    desktop.width = std::max(desktop.width, config.flatAt->x + config.resolution.width);
-    desktop.height = std::max(desktop.height, config.flatAt->y + config.resolution.height);
+    const glm::ivec2 at = config.flatAt.value();
+    calibration.projectors.push_back(flatProjector(config, at));
+    desktop.width = std::max(desktop.width, at.x + config.resolution.width);
+    desktop.height = std::max(desktop.height, at.y + config.resolution.height);
   }
-  calibration.display =
-      Display{.right = double(desktop.width), .bottom = double(desktop.height), .resolution = desktop};
+  calibration.display = Display{0, 0, static_cast<double>(desktop.width), static_cast<double>(desktop.height), desktop};
   return calibration;
 }
 

@@ -29,7 +29,7 @@ std::string surfaceText(const Surface& surface) {
 }
 
 std::string cameraText(const CameraSource& camera) {
-  const std::string text = fmt::format("camera:\n  source: {}\n", yamlText(camera.source));
+  std::string text = fmt::format("camera:\n  source: {}\n", yamlText(camera.source));
   if (!camera.checkerboard) return text;
   const auto& board = *camera.checkerboard;
   return fmt::format("{}  checkerboard: {{corners: [{}, {}], square: {}}}\n", text, board.columns, board.rows,

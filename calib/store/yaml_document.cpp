@@ -150,8 +150,7 @@ class Builder : public YAML::EventHandler {
     node.line = mark.line + 1;
     node.column = mark.column + 1;
     node.text = text;
-    if (inMap) {
-      auto key = std::exchange(open_.back().key, std::nullopt);
+    if (auto key = inMap ? std::exchange(open_.back().key, std::nullopt) : std::nullopt) {
       node.key = std::move(key->text);
       node.keyLine = key->line;
       node.keyColumn = key->column;

@@ -244,7 +244,7 @@ void YamlReader::throwIfProblems() const {
   throw StoreError(std::move(ordered));
 }
 
-int YamlReader::readHeader(const std::string& format, int newestVersion) {
+int YamlReader::readHeader(const std::string& format, int newestVersion) const {
   const Node top = root();
   const Node written = top.isMap() ? top.optional("format") : top;
   if (!top.isMap() || !written.isScalar() || written.text() != format) {

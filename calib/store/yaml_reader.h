@@ -67,7 +67,7 @@ class YamlReader {
 
   /// Checks `format:` and `version:`; returns the version. A newer one throws at once with a clear message; so do
   /// another format and text that is not YAML, because nothing else that could be said about them would help.
-  int readHeader(const std::string& format, int newestVersion);
+  int readHeader(const std::string& format, int newestVersion) const;
 
   /// For migration, before anything is read: the member at the dotted path `from` becomes the member at `to`, keeping
   /// its place in messages. Maps on the way to `to` are made. Nothing happens when there is no such member.

@@ -99,6 +99,7 @@ Image<Sample> decode(std::FILE* file, std::uintmax_t fileBytes) {
                        static_cast<int>(png_get_image_height(png, reader.info()))},
                       png_get_channels(png, reader.info()));
   std::vector<png_bytep> rows;
+  rows.reserve(static_cast<std::size_t>(image.height()));
   for (int y = 0; y < image.height(); ++y) rows.push_back(reinterpret_cast<png_bytep>(image.row(y).data()));
   png_read_image(png, rows.data());
   png_read_end(png, nullptr);
