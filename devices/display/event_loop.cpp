@@ -34,6 +34,7 @@ std::string lastGlfwError() {
 
 EventLoop::EventLoop(const std::optional<std::string>& display) {
   assert(!loopExists());
+  glfwTerminate();  // of an earlier loop, perhaps on another display
   if (display) setenv("DISPLAY", display->c_str(), 1);
   if (glfwInit() != GLFW_TRUE) {
     throw DisplayError(fmt::format("cannot open windows on {}: {}; start an X server, set DISPLAY, or use --headless",
@@ -42,8 +43,9 @@ EventLoop::EventLoop(const std::optional<std::string>& display) {
   loopExists() = true;
 }
 
+// GLFW stays as it is until another loop begins or the process ends: the X server's and the driver's libraries lose
+// memory each time that they are unloaded.
 EventLoop::~EventLoop() {
-  glfwTerminate();
   loopExists() = false;
 }
 

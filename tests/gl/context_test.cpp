@@ -5,7 +5,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <thread>
 
 #include "devices/display/gl_context.h"
 #include "devices/display/gl_program.h"
@@ -29,21 +28,14 @@ TEST(HeadlessContextTest, NeedsNoXServer) {
   EXPECT_GE(10 * major + minor, 45);
 }
 
-TEST(HeadlessContextTest, ContextsAreIndependentAndMayMoveBetweenThreads) {
+TEST(HeadlessContextTest, ContextsAreIndependent) {
   HeadlessContext first;
   const auto name = GlTexture::create(GL_TEXTURE_2D).release();
   HeadlessContext second;
   EXPECT_EQ(glIsTexture(name), GL_FALSE);
   first.makeCurrent();
   EXPECT_EQ(glIsTexture(name), GL_TRUE);
-  second.makeCurrent();
-  GLboolean there = GL_FALSE;
-  std::thread([&] {
-    first.makeCurrent();
-    there = glIsTexture(name);
-    glDeleteTextures(1, &name);
-  }).join();
-  EXPECT_EQ(there, GL_TRUE);
+  glDeleteTextures(1, &name);
 }
 
 [[noreturn]] void openWithoutDrivers() {

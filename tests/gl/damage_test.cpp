@@ -2,6 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <ctime>
+#include <limits>
+
 #include "devices/display/gl_context.h"
 #include "tests/gl/plans.h"
 #include "tests/support_image/image_near.h"
@@ -284,13 +288,18 @@ TEST_F(DamageTest, EightProjectorsAreDrawnQuickly) {
   renderer.upload(batch);
   renderer.draw();
   renderer.markAll();
-  const auto before = renderer.stats().drawTime;
+  const auto wall = renderer.stats().drawTime;
+  const auto processor = std::clock();
   renderer.draw();
-  const auto spent = std::chrono::duration<double>(renderer.stats().drawTime - before).count();
-  RecordProperty("draw_seconds", std::to_string(spent));
-  RecordProperty("upload_seconds", std::to_string(std::chrono::duration<double>(renderer.stats().uploadTime).count()));
-  RecordProperty("first_seconds", std::to_string(std::chrono::duration<double>(before).count()));
-  EXPECT_LE(spent, 4.0);  // 6.3 million pixels on two cores without a GPU take about half a second
+  const double spent = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
+  const auto seconds = [](auto time) { return std::to_string(std::chrono::duration<double>(time).count()); };
+  RecordProperty("processor_seconds", std::to_string(spent));
+  RecordProperty("draw_seconds", seconds(renderer.stats().drawTime - wall));
+  RecordProperty("first_draw_seconds", seconds(wall));
+  RecordProperty("upload_seconds", seconds(renderer.stats().uploadTime));
+  // 6.3 million pixels without a GPU take about half a second of all cores together. The processor's time, as others
+  // may use the machine too.
+  EXPECT_LE(spent, 4.0);
 }
 
 }  // namespace

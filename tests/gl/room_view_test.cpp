@@ -4,8 +4,8 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 
 #include "viewer/renderer/renderer_error.h"
 
@@ -147,9 +147,9 @@ TEST_F(RoomViewTest, EightProjectorsAreQuick) {
   const RoomFraming framing{{0, 0}, {3424, 1368}, {1600, 900}};
   view.draw(frames, {}, framing);
   const auto time = [&](const std::vector<std::size_t>& changed) {
-    const auto begin = std::chrono::steady_clock::now();
+    const auto begin = std::clock();  // the processor's time, as others may use the machine too
     view.draw(frames, changed, framing);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   };
   const double all = time({0, 1, 2, 3, 4, 5, 6, 7});
   RecordProperty("all_seconds", std::to_string(all));
