@@ -19,13 +19,14 @@ struct Box {
   [[nodiscard]] int height() const { return empty() ? 0 : bottom - top; }
   [[nodiscard]] std::int64_t area() const { return std::int64_t{width()} * height(); }
   [[nodiscard]] bool contains(const Box& other) const {
-    return other.empty() ||
-           (left <= other.left && top <= other.top && right >= other.right && bottom >= other.bottom);
+    return other.empty() || (left <= other.left && top <= other.top && right >= other.right && bottom >= other.bottom);
   }
   bool operator==(const Box&) const = default;
 };
 
-[[nodiscard]] inline Box boxOf(devices::Size size) { return {0, 0, size.width, size.height}; }
+[[nodiscard]] inline Box boxOf(devices::Size size) {
+  return {0, 0, size.width, size.height};
+}
 
 [[nodiscard]] inline Box intersect(const Box& a, const Box& b) {
   return {std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right), std::min(a.bottom, b.bottom)};

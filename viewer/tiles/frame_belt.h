@@ -20,7 +20,7 @@ namespace pixelflex::viewer {
 struct Batch {
   std::uint64_t update = 0;  // serial number of the server's update
   std::chrono::steady_clock::time_point received;
-  devices::Size desktop;       // a change of size makes the whole desktop damaged
+  devices::Size desktop;  // a change of size makes the whole desktop damaged
   std::vector<Box> boxes;
   std::vector<std::byte> pixels;
   bool completesUpdate = false;  // only then may the wall change: never half an update
