@@ -17,7 +17,6 @@ namespace {
 using pixelflex::testing::DesktopMirror;
 using pixelflex::testing::X11vncServer;
 using pixelflex::testing::XServer;
-using pixelflex::testing::XvncOptions;
 using pixelflex::testing::XvncServer;
 using ::testing::HasSubstr;
 
@@ -51,9 +50,7 @@ void expectBitForBit(XServer& x, const std::string& address) {
   ASSERT_TRUE(mirror.pumpUntilEqual(x.display())) << mirror.summary();
   mirror.session().sendPointer(150, 150, 0);  // onto the text, which has a pointer of its own
   expectStaysEqual(mirror, x.display());
-  const auto shape = mirror.last<CursorShape>();
-  ASSERT_TRUE(shape.has_value()) << "the pointer's shape comes beside the picture";
-  EXPECT_GT(shape->size.area(), 0);
+  EXPECT_GT(mirror.last<CursorShape>().value_or(CursorShape{}).size.area(), 0) << "the shape comes beside the picture";
 }
 
 TEST(Xvnc, ShowsTheDesktopBitForBitOverAUnixSocket) {
@@ -181,7 +178,7 @@ TEST(Xvnc, MayBeKilled) {
   ASSERT_TRUE(mirror.pumpUntil([&] { return mirror.updates() > 0; })) << mirror.summary();
   server.x().process().signal(SIGKILL);
   ASSERT_TRUE(mirror.pumpUntil([&] { return mirror.last<Closed>().has_value(); }));
-  EXPECT_EQ(mirror.last<Closed>()->kind, CloseKind::kLost);
+  EXPECT_EQ(mirror.last<Closed>().value_or(Closed{CloseKind::kProtocol, {}}).kind, CloseKind::kLost);
   mirror.session().sendKey('a', true);
 }
 
@@ -205,6 +202,32 @@ long peakKilobytes() {
   return usage.ru_maxrss;
 }
 
+struct Counted {
+  std::int64_t pixels = 0;
+  std::int64_t light = 0;  // white ones
+  bool complete = false;
+};
+
+// Looks at the first update without keeping it.
+Counted countFirstUpdate(FrameBelt& belt, devices::Size desktop) {
+  Counted counted;
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!counted.complete && std::chrono::steady_clock::now() < deadline) {
+    Batch* batch = belt.take();
+    if (batch == nullptr) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      continue;
+    }
+    EXPECT_EQ(batch->desktop, desktop);
+    counted.pixels += static_cast<std::int64_t>(batch->pixels.size() / 4);
+    for (std::size_t i = 0; i < batch->pixels.size(); i += 4)
+      counted.light += batch->pixels[i] == std::byte{255} ? 1 : 0;
+    counted.complete = batch->completesUpdate;
+    belt.release(batch);
+  }
+  return counted;
+}
+
 TEST(Xvnc, OpensTheLargestWallInBoundedMemory) {
   XvncServer server({.size = {16384, 8192}});
   server.x().start({"xlogo", "-geometry", "500x500+15000+7000"});
@@ -212,27 +235,12 @@ TEST(Xvnc, OpensTheLargestWallInBoundedMemory) {
   SessionOptions options;
   options.server = parseServerAddress(server.unixAddress());
   FrameBelt belt(nullptr);
-  Session session(options, belt, nullptr);
-  std::int64_t pixels = 0;
-  std::int64_t light = 0;  // the logo is black and white on black
-  bool complete = false;
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (!complete && std::chrono::steady_clock::now() < deadline) {
-    Batch* batch = belt.take();
-    if (batch == nullptr) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      continue;
-    }
-    ASSERT_EQ(batch->desktop, (devices::Size{16384, 8192}));
-    pixels += static_cast<std::int64_t>(batch->pixels.size() / 4);
-    for (std::size_t i = 0; i < batch->pixels.size(); i += 4) light += batch->pixels[i] == std::byte{255} ? 1 : 0;
-    complete = batch->completesUpdate;
-    belt.release(batch);
-  }
-  ASSERT_TRUE(complete);
-  EXPECT_EQ(pixels, std::int64_t{16384} * 8192);
-  EXPECT_GT(light, 100 * 500);
-  EXPECT_LT(light, 500 * 500);
+  const Session session(options, belt, nullptr);
+  const Counted counted = countFirstUpdate(belt, {16384, 8192});
+  EXPECT_TRUE(counted.complete);
+  EXPECT_EQ(counted.pixels, std::int64_t{16384} * 8192);
+  EXPECT_GT(counted.light, 100 * 500) << "the logo is black and white on black";
+  EXPECT_LT(counted.light, 500 * 500);
   EXPECT_LT(peakKilobytes(), 1000 * 1024) << "one frame buffer of 512 MiB and three batches of 16 MiB, never two";
 }
 

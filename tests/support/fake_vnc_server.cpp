@@ -75,7 +75,7 @@ Message& Message::rect(int x, int y, int w, int h, std::int32_t encoding) {
   return s32(encoding);
 }
 
-void FakeConnection::send(const Message& message) {
+void FakeConnection::send(const Message& message) const {
   std::size_t sent = 0;
   while (sent < message.bytes().size()) {
     const ssize_t part = ::send(socket_, &message.bytes()[sent], message.bytes().size() - sent, MSG_NOSIGNAL);
@@ -84,7 +84,7 @@ void FakeConnection::send(const Message& message) {
   }
 }
 
-std::vector<std::uint8_t> FakeConnection::receive(std::size_t count) {
+std::vector<std::uint8_t> FakeConnection::receive(std::size_t count) const {
   std::vector<std::uint8_t> bytes(count);
   for (std::size_t got = 0; got < count;) {
     if (!readable(socket_, kPatience)) throw ClientGone{};
@@ -95,7 +95,7 @@ std::vector<std::uint8_t> FakeConnection::receive(std::size_t count) {
   return bytes;
 }
 
-void FakeConnection::drain(std::chrono::milliseconds time) {
+void FakeConnection::drain(std::chrono::milliseconds time) const {
   const auto deadline = std::chrono::steady_clock::now() + time;
   std::array<char, 4096> bin{};
   while (true) {
@@ -113,7 +113,7 @@ Message FakeConnection::greeting(devices::Size desktop, const std::string& name)
   return message.u32(static_cast<std::uint32_t>(name.size())).text(name);
 }
 
-std::vector<std::uint8_t> FakeConnection::shakeHands(devices::Size desktop, const std::string& name) {
+std::vector<std::uint8_t> FakeConnection::shakeHands(devices::Size desktop, const std::string& name) const {
   send(greeting(desktop, name));
   receive(12 + 1 + 1);  // version, security type, ClientInit
   receive(20);          // SetPixelFormat
@@ -142,7 +142,7 @@ FakeVncServer::~FakeVncServer() {
   ::close(listener_);
 }
 
-void FakeVncServer::serve(const Script& script) {
+void FakeVncServer::serve(const Script& script) const {
   const int socket = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
   if (socket < 0) return;
   FakeConnection connection(socket);

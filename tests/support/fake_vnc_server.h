@@ -43,15 +43,15 @@ class FakeConnection {
   struct ClientGone {};
 
   explicit FakeConnection(int socket) : socket_(socket) {}
-  void send(const Message& message);
-  std::vector<std::uint8_t> receive(std::size_t count);
+  void send(const Message& message) const;
+  std::vector<std::uint8_t> receive(std::size_t count) const;
   /// Reads and forgets until the client closes or `time` is up.
-  void drain(std::chrono::milliseconds time);
+  void drain(std::chrono::milliseconds time) const;
 
   /// What a server without password says up to the client's first request: version, security, ServerInit.
   [[nodiscard]] static Message greeting(devices::Size desktop, const std::string& name = "fake");
   /// The whole handshake, in step with the client; returns the SetEncodings message.
-  std::vector<std::uint8_t> shakeHands(devices::Size desktop, const std::string& name = "fake");
+  std::vector<std::uint8_t> shakeHands(devices::Size desktop, const std::string& name = "fake") const;
 
  private:
   int socket_;
@@ -73,7 +73,7 @@ class FakeVncServer {
   [[nodiscard]] const std::string& address() const { return address_; }
 
  private:
-  void serve(const Script& script);
+  void serve(const Script& script) const;
 
   TemporaryFolder folder_;
   std::string address_;

@@ -23,6 +23,7 @@ constexpr int kCannotStart = 127;
 // Prepared before fork(): the child of a program with threads must not allocate.
 std::vector<char*> pointersTo(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
+  pointers.reserve(texts.size() + 1);
   for (std::string& text : texts) pointers.push_back(text.data());
   pointers.push_back(nullptr);
   return pointers;
@@ -95,7 +96,7 @@ std::optional<int> Process::wait(std::chrono::milliseconds timeout) {
   return status_;
 }
 
-void Process::signal(int number) {
+void Process::signal(int number) const {
   ::kill(-pid_, number);
 }
 

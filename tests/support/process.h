@@ -34,7 +34,7 @@ class Process {
   std::optional<int> wait(std::chrono::milliseconds timeout);
   [[nodiscard]] bool running() { return !wait(std::chrono::milliseconds(0)).has_value(); }
   /// To the whole group.
-  void signal(int number);
+  void signal(int number) const;
 
  private:
   pid_t pid_ = -1;

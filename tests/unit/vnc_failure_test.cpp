@@ -50,7 +50,6 @@ class SilentPort {
   SilentPort() {
     address_.sin_family = AF_INET;
     address_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    listener_ = newSocket();
     socklen_t length = sizeof address_;
     EXPECT_EQ(::bind(listener_, generic(), length), 0);
     EXPECT_EQ(::listen(listener_, 0), 0);
@@ -75,7 +74,7 @@ class SilentPort {
   sockaddr* generic() { return reinterpret_cast<sockaddr*>(&address_); }
 
   sockaddr_in address_{};
-  int listener_ = -1;
+  int listener_ = newSocket();
   int waiting_[4] = {};
 };
 

@@ -54,10 +54,10 @@ TEST(HostileServer, MayHangUpAfterAnyByte) {
 }
 
 struct Hostile {
-  const char* name;
+  const char* name = nullptr;
   Message bytes;
-  CloseKind kind;
-  const char* says;
+  CloseKind kind = CloseKind::kProtocol;
+  const char* says = nullptr;
 };
 
 TEST(HostileServer, EndsWithAMessageWhateverItSends) {
@@ -129,7 +129,7 @@ TEST(HostileServer, CannotEndTheSessionWithAGiantClipboard) {
 TEST(HostileServer, IsReadOnAfterAColourMap) {
   const FakeVncServer server([](FakeConnection& client) {
     client.shakeHands({8, 8});
-    client.send(Message().u8(1).u8(0).u16(0).u16(256).repeat(0xab, 256 * 6).u8(2));
+    client.send(Message().u8(1).u8(0).u16(0).u16(256).repeat(0xab, std::size_t{6} * 256).u8(2));
     client.drain(std::chrono::seconds(20));
   });
   DesktopMirror mirror(server.address());

@@ -14,6 +14,8 @@
 
 namespace pixelflex::viewer {
 
+struct RfbState;
+
 /// The protocol: libvncclient on one connected socket, on one thread. Calls block until the server has said enough;
 /// shutting the socket down from another thread ends them. Whatever goes wrong throws SessionError.
 class RfbClient {
@@ -44,8 +46,7 @@ class RfbClient {
   void claimPointer();
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<RfbState> state_;
 };
 
 }  // namespace pixelflex::viewer

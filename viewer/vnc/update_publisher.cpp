@@ -45,6 +45,7 @@ class Cutter {
   }
 
   void finish() {
+    assert(batch_ != nullptr);
     batch_->completesUpdate = true;
     belt_.publish(batch_);
   }

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "viewer/tiles/region.h"
+#include "viewer/vnc/rfb_failure.h"
+#include "viewer/vnc/rfb_log.h"
+#include "viewer/vnc/session.h"
+
+struct _rfbClient;  // libvncclient's name for it
+
+namespace pixelflex::viewer {
+
+/// A libvncclient client on a connected socket, and what its callbacks noted. libvncclient calls back through C, which
+/// no exception may cross: the callbacks only note what happened, and the calls around them throw SessionError.
+struct RfbState {
+  struct Free {
+    void operator()(void* memory) const { std::free(memory); }
+  };
+
+  /// `socket` and `options` stay the caller's and must outlive this.
+  RfbState(int socket, const SessionOptions& options);
+  ~RfbState();
+  RfbState(const RfbState&) = delete;
+  RfbState& operator=(const RfbState&) = delete;
+
+  void read(std::span<std::uint8_t> bytes) const;
+  void discard(std::uint64_t count) const;
+  void write(std::span<const std::uint8_t> message) const;
+  /// Throws what a callback noted, or else what the log tells.
+  [[noreturn]] void fail() const;
+
+  /// Gives libvncclient a frame buffer of its present size; false and `failure` if that cannot be. What was shown stays
+  /// shown until the server has sent the new picture.
+  bool allocate() noexcept;
+  void readAlphaCursor(devices::Size size, int hotX, int hotY);
+
+  RfbLog log;
+  const SessionOptions& options;
+  HandshakeState handshake;
+  _rfbClient* client = nullptr;
+  std::unique_ptr<std::uint8_t, Free> pixels;
+  devices::Size pixelsSize;
+  Region damage;
+  bool insideUpdate = false;
+  bool updateFinished = false;
+  bool pointerUsed = false;   // this session has put it somewhere
+  bool pointerDrawn = false;  // by the server, into the desktop
+  bool pseudoRect = false;    // the next rectangle reported is none
+  std::optional<SessionError> failure;
+  std::vector<SessionEvent> events;
+};
+
+/// An unsigned number in network order.
+[[nodiscard]] std::uint32_t bigEndian(std::span<const std::uint8_t> bytes);
+
+}  // namespace pixelflex::viewer
