@@ -28,13 +28,13 @@ double varianceOf(const std::vector<double>& half) {
   return variance;
 }
 
-/// `steps` are the floats between taps: the channel count along a row.
 void blurRow(const float* from, float* to, std::size_t pixels, std::size_t channels, const std::vector<float>& kernel) {
   const std::size_t radius = kernel.size() - 1;
   std::vector<float> padded((pixels + 2 * radius) * channels);
-  for (std::size_t i = 0; i < pixels + 2 * radius; ++i) {
-    const std::size_t source = std::clamp(i, radius, radius + pixels - 1) - radius;
-    std::copy_n(from + source * channels, channels, padded.begin() + static_cast<std::ptrdiff_t>(i * channels));
+  std::copy_n(from, pixels * channels, padded.begin() + static_cast<std::ptrdiff_t>(radius * channels));
+  for (std::size_t i = 0; i < radius * channels; ++i) {
+    padded[i] = from[i % channels];
+    padded[(pixels + radius) * channels + i] = from[(pixels - 1) * channels + i % channels];
   }
   const float* middle = padded.data() + radius * channels;
   const std::size_t count = pixels * channels;
