@@ -12,7 +12,7 @@
 #include "viewer/vnc/rfb_log.h"
 #include "viewer/vnc/session.h"
 
-struct _rfbClient;  // libvncclient's name for it
+struct _rfbClient;  // NOLINT(bugprone-reserved-identifier): libvncclient's name
 
 namespace pixelflex::viewer {
 
