@@ -8,7 +8,6 @@
 #include <memory>
 #include <utility>
 
-#include "calib/estimate/collineation.h"
 #include "calib/estimate/fiducials.h"
 #include "calib/estimate/intrinsics.h"
 #include "calib/estimate/projector_fit.h"
@@ -33,6 +32,10 @@ std::string rounded(double value, int digits) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "%.*f", digits, value);
   return text.data();
+}
+
+std::string sizeText(devices::Size size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
 std::string count(std::size_t number, const std::string& noun) {
@@ -155,7 +158,7 @@ std::string Procedure::runCamera(const ProcedureOptions&) {
   tookPhotographs_ = true;
   if (const auto known = source.knownCamera()) {
     calibration_.camera = known;
-    return "known intrinsics, " + std::to_string(known->size.width) + "x" + std::to_string(known->size.height);
+    return "known intrinsics, " + sizeText(known->size);
   }
   const Checkerboard board = wall_.camera.checkerboard.value_or(Checkerboard{});
   std::vector<CheckerboardView> views;
@@ -189,43 +192,51 @@ std::string Procedure::runCamera(const ProcedureOptions&) {
 }
 
 std::string Procedure::runSurface(const ProcedureOptions&) {
-  auto& source = photographs("surface");
-  tookPhotographs_ = true;
-  const CameraMapping camera(*calibration_.camera);
-  const auto shot = source.fiducials();
-  if (shot.photo.size() != calibration_.camera->size) {
-    throw ProcedureError(shot.name + ": " + std::to_string(shot.photo.width()) + "x" +
-                         std::to_string(shot.photo.height()) + " pixels, but the camera was calibrated at " +
-                         std::to_string(calibration_.camera->size.width) + "x" +
-                         std::to_string(calibration_.camera->size.height));
-  }
-  const auto markers = findMarkers(shot.photo, camera);
-  std::vector<PointPair> pairs;
-  std::string missing;
-  for (const auto& fiducial : wall_.surface.fiducials) {
-    if (fiducial.pointInCamera) {
-      pairs.push_back({camera.undistortedFromRaw(*fiducial.pointInCamera), fiducial.pointInWall});
-    } else if (const auto found = markers.find(fiducial.aruco.value_or(-1)); found != markers.end()) {
-      pairs.push_back({found->second, fiducial.pointInWall});
-    } else {
-      missing += (missing.empty() ? "" : ", ") + std::to_string(fiducial.aruco.value_or(-1));
-    }
-  }
-  const std::string lost = missing.empty() ? "" : "; markers not found: " + missing;
-  if (pairs.size() < 4) {
-    throw ProcedureError(shot.name + ": fewer than four fiducials: " + std::to_string(pairs.size()) + " of " +
-                         std::to_string(wall_.surface.fiducials.size()) + " found" + lost +
+  const FiducialSearch found = findFiducials(CameraMapping(*calibration_.camera));
+  if (found.pairs.size() < 4) {
+    throw ProcedureError(found.photo + ": fewer than four fiducials: " + std::to_string(found.pairs.size()) + " of " +
+                         std::to_string(wall_.surface.fiducials.size()) +
+                         " found; markers not found: " + found.missing +
                          " (are they in the picture, evenly lit, at least 24 pixels wide, with a white border?)");
   }
-  if (!missing.empty()) progress_.warn(shot.name + lost.substr(1));
+  if (!found.missing.empty()) progress_.warn(found.photo + ": markers not found: " + found.missing);
   try {
-    const Homography wallFromCamera = solveCollineation(pairs);
-    calibration_.surface = SurfaceFit{wallFromCamera.rowMajor(), rmsError(wallFromCamera, pairs)};
+    const Homography wallFromCamera = solveCollineation(found.pairs);
+    calibration_.surface = SurfaceFit{wallFromCamera.rowMajor(), rmsError(wallFromCamera, found.pairs)};
   } catch (const EstimateError& error) {
     throw ProcedureError("surface: " + std::string(error.what()));
   }
-  return count(pairs.size(), "fiducial") + ", fit " + rounded(calibration_.surface->rms, 3) + " " +
+  return count(found.pairs.size(), "fiducial") + ", fit " + rounded(calibration_.surface->rms, 3) + " " +
          wall_.surface.units + " RMS";
+}
+
+/// Fiducials whose pixels a person gave need no photograph; markers are looked for in one.
+Procedure::FiducialSearch Procedure::findFiducials(const CameraMapping& camera) {
+  FiducialSearch search;
+  std::map<int, glm::dvec2> markers;
+  const bool anyMarker =
+      std::ranges::any_of(wall_.surface.fiducials, [](const Fiducial& f) { return f.aruco.has_value(); });
+  if (anyMarker) {
+    auto& source = photographs("surface");
+    tookPhotographs_ = true;
+    const auto shot = source.fiducials();
+    search.photo = shot.name;
+    if (shot.photo.size() != calibration_.camera->size) {
+      throw ProcedureError(shot.name + ": " + sizeText(shot.photo.size()) +
+                           " pixels, but the camera was calibrated at " + sizeText(calibration_.camera->size));
+    }
+    markers = findMarkers(shot.photo, camera);
+  }
+  for (const auto& fiducial : wall_.surface.fiducials) {
+    if (fiducial.pointInCamera) {
+      search.pairs.push_back({camera.undistortedFromRaw(*fiducial.pointInCamera), fiducial.pointInWall});
+    } else if (const auto found = markers.find(fiducial.aruco.value_or(-1)); found != markers.end()) {
+      search.pairs.push_back({found->second, fiducial.pointInWall});
+    } else {
+      search.missing += (search.missing.empty() ? "" : ", ") + std::to_string(fiducial.aruco.value_or(-1));
+    }
+  }
+  return search;
 }
 
 std::string Procedure::runProjectors(const ProcedureOptions& options) {
@@ -329,8 +340,7 @@ std::string Procedure::runMesh(const ProcedureOptions&) {
   } catch (const GeometryError& error) {
     throw ProcedureError(std::string("mesh: ") + error.what());
   }
-  const auto& size = calibration_.display->resolution;
-  return "desktop " + std::to_string(size.width) + "x" + std::to_string(size.height);
+  return "desktop " + sizeText(calibration_.display->resolution);
 }
 
 std::string Procedure::runBlend(const ProcedureOptions&) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calib/capture/photographs.h"
+#include "calib/estimate/collineation.h"
 #include "calib/procedure/progress.h"
 #include "calib/store/store.h"
 #include "devices/image/image.h"
@@ -65,6 +66,12 @@ class Procedure {
   std::string runBlend(const ProcedureOptions& options);
   std::string runGamma(const ProcedureOptions& options);
 
+  struct FiducialSearch {
+    std::vector<PointPair> pairs;  // undistorted camera to wall
+    std::string missing;           // marker ids, for messages
+    std::string photo;
+  };
+  FiducialSearch findFiducials(const CameraMapping& camera);
   void addProjector(const ProjectorConfig& config, const DecodedBlobs& decoded, const ProcedureOptions& options);
   void reportFailure(const std::string& name, const std::string& problem, const ProcedureOptions& options);
 

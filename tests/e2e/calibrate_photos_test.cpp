@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "calib/simulate/simulated_wall.h"
 #include "calib/store/store.h"
 #include "devices/image/photo_file.h"
 #include "devices/image/png_file.h"
@@ -89,6 +91,24 @@ TEST_F(PhotosTest, FewerThanFourFiducialsIsAnErrorThatCounts) {
   }
   devices::writePng(photos() / "fiducials.png", photo);
   expectRefused({"fiducials.png", "fewer than four fiducials: 2 of 6", "markers not found"});
+}
+
+TEST_F(PhotosTest, FiducialsMayBePixelsInstead) {
+  calib::Wall byHand = calib::loadWall(wall());
+  // The same four corners of the wall as the simulated camera sees them, read off a photograph to half a pixel.
+  const calib::SimulatedWall room(calib::loadRig(wall() / "rig.yaml"));
+  for (auto& fiducial : byHand.surface.fiducials) {
+    const glm::dvec2 seen = room.cameraFromWall(fiducial.pointInWall).value();
+    fiducial.aruco.reset();
+    fiducial.pointInCamera = glm::dvec2(std::round(seen.x), std::round(seen.y));
+  }
+  calib::saveWall(wall(), byHand);
+  fs::remove(photos() / "fiducials.png");
+  const Output run = runProgram("calibrate", {wall().string(), "--photos", photos().string()});
+  EXPECT_EQ(run.status, 0) << run.text;
+  const auto calibration = calib::loadCalibration(wall());
+  EXPECT_LT(calibration.surface->rms, 3);  // millimetres; a camera pixel is about 3 of them
+  EXPECT_LT(calibration.projectors[0].quality.rms, 0.1);
 }
 
 TEST_F(PhotosTest, NoCheckerboardNeedsKnownIntrinsics) {
