@@ -26,10 +26,10 @@ class GlHandle {
   GlHandle(const GlHandle&) = delete;
   GlHandle& operator=(const GlHandle&) = delete;
 
-  /// A new GL object; the arguments are the kind's own.
+  /// A new GL object; the arguments are the kind's own, GL enumerators.
   template <class... Arguments>
   [[nodiscard]] static GlHandle create(Arguments... arguments) {
-    return adopt(Kind::create(arguments...));
+    return adopt(Kind::create(static_cast<std::uint32_t>(arguments)...));
   }
   /// Takes over a name that somebody else made.
   [[nodiscard]] static GlHandle adopt(GlName name) {

@@ -80,6 +80,7 @@ std::optional<std::uint32_t> Keysyms::release(int keycode) {
 
 std::vector<std::uint32_t> Keysyms::releaseAll() {
   std::vector<std::uint32_t> keysyms;
+  keysyms.reserve(pressed_.size());
   for (const auto& [keycode, keysym] : pressed_) keysyms.push_back(keysym);
   pressed_.clear();
   return keysyms;

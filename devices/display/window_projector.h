@@ -15,6 +15,8 @@ class WindowProjector final : public Projector {
   /// Throws DisplayError. The loop must outlive the projector.
   WindowProjector(std::string name, EventLoop& loop, Size resolution, glm::ivec2 at);
   ~WindowProjector() override;
+  WindowProjector(const WindowProjector&) = delete;
+  WindowProjector& operator=(const WindowProjector&) = delete;
 
   [[nodiscard]] const std::string& name() const override { return name_; }
   [[nodiscard]] Size resolution() const override { return resolution_; }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <ctime>
 #include <limits>
 
@@ -135,7 +136,9 @@ TEST_F(DamageTest, TwoFarCornersOfALargeDesktopAreTwoSmallUploads) {
   plan.desktop = desktop;
   plan.exactAt = glm::ivec2(desktop.width - 640, desktop.height - 480);
   renderer.setPlans({plan});
-  auto batch = testing::batchOf(Image8(desktop, 3), {});
+  Batch batch;
+  batch.desktop = desktop;
+  batch.completesUpdate = true;
   batch.boxes = {{0, 0, 64, 64}, {desktop.width - 64, desktop.height - 64, desktop.width, desktop.height}};
   for (int i = 0; i < 2 * 64 * 64; ++i) {
     for (const int code : {i % 251, i % 83, i % 17, 0}) batch.pixels.push_back(static_cast<std::byte>(code));
@@ -270,7 +273,8 @@ TEST_F(DamageTest, EightProjectorsAreDrawnQuickly) {
   for (int i = 0; i < 8; ++i) {
     const Size part{1100, 820};
     const auto inPart = testing::bentMap(resolution, part);
-    const glm::dvec2 shift(800.0 * (i % 4), 600.0 * (i / 4));
+    const auto [row, column] = std::div(i, 4);
+    const glm::dvec2 shift(800.0 * column, 600.0 * row);
     const testing::WeightedMap map = [=](glm::dvec2 p) {
       const auto at = inPart(p);
       return glm::dvec3(at.x + shift.x * at.z, at.y + shift.y * at.z, at.z);

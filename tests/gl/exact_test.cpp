@@ -61,6 +61,7 @@ TEST_F(ExactTest, CopiesBitForBitAcrossTileBordersAndBlackOutside) {
                                  {3000, 1700, 4001, 2301},
                                  {-40, -30, 600, 450}};
   std::vector<OutputPlan> plans;
+  plans.reserve(screens.size());
   for (const auto& screen : screens) {
     plans.push_back(exactPlan("screen", {screen.right - screen.left, screen.bottom - screen.top}, desktop.size(),
                               {screen.left, screen.top}));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <ctime>
 
 #include "viewer/renderer/renderer_error.h"
@@ -138,8 +139,9 @@ TEST_F(RoomViewTest, EightProjectorsAreQuick) {
   std::vector<GlTexture> textures;
   std::vector<devices::GlName> frames;
   for (int i = 0; i < 8; ++i) {
-    meshes.push_back(
-        plainMesh(resolution, {800.0F * static_cast<float>(i % 4), 600.0F * static_cast<float>(i / 4)}, 1, 0));
+    const auto [row, column] = std::div(i, 4);
+    const glm::vec2 corner(800.0F * static_cast<float>(column), 600.0F * static_cast<float>(row));
+    meshes.push_back(plainMesh(resolution, corner, 1, 0));
     textures.push_back(grey(resolution, 90));
     frames.push_back(textures.back().get());
   }

@@ -76,6 +76,13 @@ Case makeCase(Shape shape, Alpha alpha, Size resolution, Size desktop) {
   return made;
 }
 
+std::vector<OutputPlan> plansOf(const std::vector<Case>& cases) {
+  std::vector<OutputPlan> plans;
+  plans.reserve(cases.size());
+  for (const auto& one : cases) plans.push_back(one.plan);
+  return plans;
+}
+
 /// Whether the 3x3 pixels around are all inside or all outside the picture.
 bool clearOfEdges(const devices::Image<double>& frame, int x, int y) {
   double sum = 0;
@@ -185,8 +192,7 @@ TEST_P(WarpMatrixTest, MatchesTheReferenceAndAFullRedraw) {
   const Size desktop{331, 257};
   const std::vector<Case> cases{makeCase(shape, alpha, {161, 121}, desktop),
                                 makeCase(shape, alpha, {67, 203}, desktop)};
-  std::vector<OutputPlan> plans;
-  for (const auto& one : cases) plans.push_back(one.plan);
+  const auto plans = plansOf(cases);
   WallRenderer incremental(context_);
   incremental.setPlans(plans);
   auto picture = testing::testDesktop(desktop);
@@ -267,8 +273,7 @@ TEST_F(WarpTest, FiltersTransfersAndResponsesMatchTheReference) {
       }
     }
   }
-  std::vector<OutputPlan> plans;
-  for (const auto& one : cases) plans.push_back(one.plan);
+  const auto plans = plansOf(cases);
   WallRenderer renderer(context_);
   renderer.setPlans(plans);
   renderer.upload(testing::wholeBatch(picture));

@@ -134,7 +134,7 @@ bool WallRenderer::needsDraw() const {
 
 std::vector<std::size_t> WallRenderer::draw() {
   std::vector<std::size_t> drawn;
-  if (!needsDraw()) return drawn;
+  if (!desktop_ || !needsDraw()) return drawn;
   const Stopwatch stopwatch(stats_.drawTime);
   context_.makeCurrent();
   prepareState();
