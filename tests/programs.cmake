@@ -1,6 +1,6 @@
 # The programs as users run them, on simulated walls and against real VNC servers.
 pixelflex_test(calibrate_cli_test LABEL e2e TIMEOUT 240
-  SOURCES e2e/calibrate_cli_test.cpp e2e/calibrate_photos_test.cpp e2e/calibrate_layout_test.cpp
+  SOURCES e2e/calibrate_cli_test.cpp e2e/calibrate_photos_test.cpp e2e/calibrate_layout_test.cpp e2e/calibrate_repair_test.cpp
   LINK pixelflex_test_support pixelflex_simulate pixelflex_store)
 add_dependencies(calibrate_cli_test pixelflex-new pixelflex-calibrate)
 

@@ -104,7 +104,7 @@ void LivePhotographs::blankAll() {
 
 devices::Image8 LivePhotographs::shoot(const std::filesystem::path& relative) {
   devices::Image8 photo = camera_.shoot();
-  writer_.write(captures_ / relative, photo);
+  if (!captures_.empty()) writer_.write(captures_ / relative, photo);
   return photo;
 }
 

@@ -45,7 +45,7 @@ class PhotoWriter {
 class LivePhotographs : public Photographs {
  public:
   /// The devices must outlive this. `identity` describes the set-up for stamp(). Photographs go to `captures` as they
-  /// are taken.
+  /// are taken; nowhere when it is empty.
   LivePhotographs(devices::Camera& camera, std::vector<devices::Projector*> projectors, devices::Operator& person,
                   std::filesystem::path captures, std::string identity, int checkerboardCount);
   ~LivePhotographs() override;

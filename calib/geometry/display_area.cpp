@@ -205,6 +205,18 @@ std::optional<CellRect> largestRectangle(const Coverage& coverage, AspectRatio a
   return best;
 }
 
+bool isLit(const Display& display, std::span<const Outline> footprints) {
+  const Outline rectangle = {{display.left, display.top},
+                             {display.right, display.top},
+                             {display.right, display.bottom},
+                             {display.left, display.bottom}};
+  std::vector<Outline> withDisplay(footprints.begin(), footprints.end());
+  const double lit = uniteFootprints(withDisplay).area;
+  withDisplay.push_back(rectangle);
+  const double pixel = areaOf(rectangle) / static_cast<double>(display.resolution.area());
+  return uniteFootprints(withDisplay).area - lit < 1e-3 * pixel;
+}
+
 Display findDisplay(std::span<const Outline> footprints, std::span<const double> densities,
                     const DisplayRequest& request, const DesktopRequest& desktop) {
   if (footprints.empty()) throw GeometryError("no projector lights the wall");

@@ -57,6 +57,9 @@ struct CellRect {
 [[nodiscard]] Display findDisplay(std::span<const Outline> footprints, std::span<const double> densities,
                                   const DisplayRequest& request, const DesktopRequest& desktop);
 
+/// Whether every point of a display is lit, up to a thousandth of a desktop pixel's area in all.
+[[nodiscard]] bool isLit(const Display& display, std::span<const Outline> footprints);
+
 /// No desktop is wider or higher: what X servers over VNC can hold.
 inline constexpr int kLargestDesktopExtent = 16384;
 

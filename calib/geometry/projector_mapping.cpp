@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "calib/geometry/nudge_map.h"
+
 namespace pixelflex::calib {
 
 ProjectorMapping::ProjectorMapping(const ProjectorModel& model, devices::Size resolution)
@@ -29,8 +31,19 @@ ProjectorMapping::ProjectorMapping(const ProjectorModel& model, devices::Size re
   sign_ = projectorFromWall_.weight(middleInWall) < 0 ? -1 : 1;
 }
 
+ProjectorMapping::ProjectorMapping(const ProjectorCalibration& projector)
+    : ProjectorMapping(projector.model, projector.resolution) {
+  if (!projector.nudge) return;
+  nudgedFromMeasured_ = nudgedFromMeasured(*projector.nudge, projector.resolution);
+  measuredFromNudged_ = nudgedFromMeasured_.inverse();
+}
+
 std::optional<glm::dvec2> ProjectorMapping::wallFromProjector(glm::dvec2 pointInProjector) const {
-  const auto ideal = lens_.undistort((pointInProjector - centre_) / scale_);
+  return wallFromMeasured(measuredFromNudged_.map(pointInProjector));
+}
+
+std::optional<glm::dvec2> ProjectorMapping::wallFromMeasured(glm::dvec2 pointInMeasured) const {
+  const auto ideal = lens_.undistort((pointInMeasured - centre_) / scale_);
   if (!ideal) return std::nullopt;
   const glm::dvec2 pointInWall = wallFromNormalised_.map(*ideal);
   if (!std::isfinite(pointInWall.x) || !std::isfinite(pointInWall.y)) return std::nullopt;
@@ -42,11 +55,12 @@ std::optional<glm::dvec2> ProjectorMapping::projectorFromWall(glm::dvec2 pointIn
   if (projectorFromWall_.weight(pointInWall) * sign_ <= 0) return std::nullopt;
   const glm::dvec2 ideal = projectorFromWall_.map(pointInWall);
   if (glm::dot(ideal, ideal) > largestRadius_ * largestRadius_) return std::nullopt;
-  return lens_.distort(ideal) * scale_ + centre_;
+  return nudgedFromMeasured_.map(lens_.distort(ideal) * scale_ + centre_);
 }
 
 Homography ProjectorMapping::flatWallFromProjector() const {
-  return wallFromNormalised_ * Homography::scaling(glm::dvec2(1 / scale_)) * Homography::translation(-centre_);
+  return wallFromNormalised_ * Homography::scaling(glm::dvec2(1 / scale_)) * Homography::translation(-centre_) *
+         measuredFromNudged_;
 }
 
 bool ProjectorMapping::insideFrame(glm::dvec2 p) const {

@@ -13,6 +13,8 @@ namespace pixelflex::calib {
 class ProjectorMapping {
  public:
   ProjectorMapping(const ProjectorModel& model, devices::Size resolution);
+  /// With the correction by hand, if there is one: what the projector shows at p was measured at p before the nudge.
+  explicit ProjectorMapping(const ProjectorCalibration& projector);
 
   /// Where a point of the frame (or a little outside it) lands on the wall. None where the lens model cannot be
   /// inverted or the ray misses the wall.
@@ -34,6 +36,8 @@ class ProjectorMapping {
   [[nodiscard]] double meanDensity() const;
 
  private:
+  [[nodiscard]] std::optional<glm::dvec2> wallFromMeasured(glm::dvec2 pointInMeasured) const;
+
   Homography projectorFromWall_;
   Homography wallFromNormalised_;
   BrownLens lens_;
@@ -42,6 +46,8 @@ class ProjectorMapping {
   devices::Size resolution_;
   double largestRadius_;  // of the undistorted frame, with a margin
   double sign_;           // of the homogeneous weight in front of the projector
+  Homography nudgedFromMeasured_;
+  Homography measuredFromNudged_;
 };
 
 }  // namespace pixelflex::calib

@@ -67,12 +67,14 @@ Procedure::Procedure(std::filesystem::path folder, const Wall& wall, Calibration
       wall_(wall),
       calibration_(std::move(previous)),
       photographs_(photographs),
-      progress_(progress) {}
+      progress_(progress),
+      nudges_(loadNudges(folder_)) {}
 
 std::vector<std::string> Procedure::run(const ProcedureOptions& options) {
   if (wall_.surface.shape != SurfaceShape::kPlanar) {
     throw ProcedureError("surface: only planar walls can be calibrated by this version; set shape: planar");
   }
+  if (!options.only.empty()) return runOnly(options);
   std::vector<std::string> ran;
   for (const auto& step : steps()) {
     const bool asked = std::ranges::find(options.steps, step.name) != options.steps.end();
@@ -85,6 +87,25 @@ std::vector<std::string> Procedure::run(const ProcedureOptions& options) {
     progress_.endStep(result);
     ran.push_back(step.name);
   }
+  return ran;
+}
+
+std::vector<std::string> Procedure::runOnly(const ProcedureOptions& options) {
+  if (!calibration_.surface || !calibration_.display) {
+    throw ProcedureError("--only measures against a calibrated wall: run pixelflex calibrate WALL first");
+  }
+  const std::vector<Step> repair = {{"projectors", &Procedure::runProjectors},
+                                    {"mesh", &Procedure::keepOrFindDisplay},
+                                    {"blend", &Procedure::runBlend},
+                                    {"gamma", &Procedure::runGamma}};
+  std::vector<std::string> ran;
+  for (const auto& step : repair) {
+    progress_.beginStep(step.name);
+    progress_.endStep((this->*step.run)(options));
+    ran.push_back(step.name);
+  }
+  // What was measured before counts as measured now: the wall is whole again.
+  for (const auto& step : steps()) calibration_.steps[step.name] = fingerprint(step.name);
   return ran;
 }
 
@@ -122,7 +143,7 @@ std::string Procedure::fingerprint(const std::string& step) const {
     print.add(static_cast<int>(wall_.desktop.density)).add(wall_.desktop.pixelsPerUnit).add(wall_.desktop.oversampling);
   } else if (step == "blend") {
     previous("projectors");
-    print.add(wall_.blend.densityExponent);
+    print.add(wall_.blend.densityExponent).add(formatNudges(nudges_));
   } else {
     previous("projectors");
     for (const auto& p : wall_.projectors) {
@@ -244,12 +265,18 @@ std::string Procedure::runProjectors(const ProcedureOptions& options) {
   tookPhotographs_ = true;
   const CameraMapping camera(*calibration_.camera);
   std::vector<std::pair<const ProjectorConfig*, std::future<DecodedBlobs>>> decoding;
-  calibration_.projectors.clear();
-  const int total = static_cast<int>(wall_.projectors.size()) * kPatternCount;
+  const auto wanted = [&](const std::string& name) {
+    return !options.skip.contains(name) && (options.only.empty() || options.only.contains(name));
+  };
+  std::erase_if(calibration_.projectors,
+                [&](const auto& known) { return options.only.empty() || options.only.contains(known.name); });
+  const std::size_t kept = calibration_.projectors.size();
+  const auto measured = std::ranges::count_if(wall_.projectors, wanted, &ProjectorConfig::name);
+  const int total = static_cast<int>(measured) * kPatternCount;
   int done = 0;
   for (const auto& config : wall_.projectors) {
+    if (!wanted(config.name)) continue;
     done += kPatternCount;
-    if (options.skip.contains(config.name)) continue;
     if (!source.hasProjector(config.name)) {
       progress_.warn("projector " + config.name + ": nothing was photographed of it; left out");
       continue;
@@ -273,8 +300,11 @@ std::string Procedure::runProjectors(const ProcedureOptions& options) {
     }));
   }
   for (auto& [config, decoded] : decoding) addProjector(*config, decoded.get(), options);
-  if (calibration_.projectors.empty()) throw ProcedureError("no projector could be calibrated");
-  return count(calibration_.projectors.size(), "projector") + " of " + std::to_string(wall_.projectors.size());
+  if (calibration_.projectors.size() == kept) throw ProcedureError("no projector could be calibrated");
+  std::ranges::sort(calibration_.projectors, {}, [&](const ProjectorCalibration& p) {
+    return std::ranges::find(wall_.projectors, p.name, &ProjectorConfig::name) - wall_.projectors.begin();
+  });
+  return count(calibration_.projectors.size() - kept, "projector") + " of " + std::to_string(measured);
 }
 
 void Procedure::addProjector(const ProjectorConfig& config, const DecodedBlobs& decoded,
@@ -302,6 +332,7 @@ void Procedure::addProjector(const ProjectorConfig& config, const DecodedBlobs& 
   const Homography wallFromCamera(calibration_.surface->wallFromCamera);
   const BlobLayout layout(config.resolution);
   ProjectorCalibration projector{.name = config.name, .resolution = config.resolution};
+  if (const auto nudge = nudges_.find(config.name); nudge != nudges_.end()) projector.nudge = nudge->second;
   for (const auto& blob : decoded.blobs) {
     projector.samples.push_back({layout.centre(blob.id), wallFromCamera.map(blob.pointInUndistorted)});
   }
@@ -323,11 +354,19 @@ void Procedure::reportFailure(const std::string& name, const std::string& proble
   progress_.warn(message + "; left out");
 }
 
+std::string Procedure::keepOrFindDisplay(const ProcedureOptions& options) {
+  std::vector<Outline> outlines;
+  for (const auto& projector : calibration_.projectors) outlines.push_back(footprint(ProjectorMapping(projector)));
+  if (isLit(*calibration_.display, outlines)) return "desktop stays " + sizeText(calibration_.display->resolution);
+  progress_.warn("the old display is not wholly lit any more; a new one was found");
+  return runMesh(options);
+}
+
 std::string Procedure::runMesh(const ProcedureOptions&) {
   std::vector<Outline> outlines;
   std::vector<double> densities;
   for (const auto& projector : calibration_.projectors) {
-    const ProjectorMapping mapping(projector.model, projector.resolution);
+    const ProjectorMapping mapping(projector);
     try {
       outlines.push_back(footprint(mapping));
     } catch (const GeometryError& error) {
@@ -347,7 +386,7 @@ std::string Procedure::runBlend(const ProcedureOptions&) {
   std::vector<ProjectorMapping> mappings;
   std::vector<double> densities;
   for (const auto& projector : calibration_.projectors) {
-    mappings.emplace_back(projector.model, projector.resolution);
+    mappings.emplace_back(projector);
     densities.push_back(mappings.back().meanDensity());
   }
   for (std::size_t i = 0; i < mappings.size(); ++i) {

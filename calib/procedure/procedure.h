@@ -28,6 +28,7 @@ struct ProcedureOptions {
   std::vector<std::string> steps;  // none: all that are stale
   bool force = false;              // with no steps: all, stale or not
   std::set<std::string> skip;      // projectors to leave out
+  std::set<std::string> only;      // measure these again against the stored rest; steps and force do not apply
   bool goOnWithoutFailed = false;  // a projector that is not found is left out with a warning instead of an error
 };
 
@@ -52,6 +53,7 @@ class Procedure {
  private:
   struct Step;
   static const std::vector<Step>& steps();
+  std::vector<std::string> runOnly(const ProcedureOptions& options);
 
   [[nodiscard]] std::string fingerprint(const std::string& step) const;
   [[nodiscard]] std::string measureStamp(const std::string& kind) const;
@@ -62,6 +64,8 @@ class Procedure {
   std::string runCamera(const ProcedureOptions& options);
   std::string runSurface(const ProcedureOptions& options);
   std::string runProjectors(const ProcedureOptions& options);
+  /// The display stays as it is when it is still lit, so that the desktop keeps its size.
+  std::string keepOrFindDisplay(const ProcedureOptions& options);
   std::string runMesh(const ProcedureOptions& options);
   std::string runBlend(const ProcedureOptions& options);
   std::string runGamma(const ProcedureOptions& options);
@@ -80,6 +84,7 @@ class Procedure {
   Calibration calibration_;
   Photographs* photographs_;
   Progress& progress_;
+  Nudges nudges_;
   bool tookPhotographs_ = false;
   std::map<std::string, devices::Image16> masks_;  // by path relative to the folder
   std::map<std::string, std::string> responses_;   // likewise

@@ -17,7 +17,7 @@ ProjectorSummary describe(const ProjectorConfig& config, const Calibration& cali
     summary.note = "not calibrated";
     return summary;
   }
-  const ProjectorMapping mapping(projector->model, projector->resolution);
+  const ProjectorMapping mapping(*projector);
   summary.calibrated = true;
   summary.quality = projector->quality;
   summary.density = mapping.meanDensity();

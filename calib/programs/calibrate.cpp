@@ -14,10 +14,13 @@
 
 #include "calib/capture/folder_photographs.h"
 #include "calib/capture/live_photographs.h"
+#include "calib/geometry/nudge_map.h"
+#include "calib/procedure/drift_check.h"
 #include "calib/procedure/procedure.h"
 #include "calib/procedure/summary.h"
 #include "calib/programs/calibrate_table.h"
 #include "calib/programs/console_progress.h"
+#include "calib/programs/nudge_argument.h"
 #include "calib/report/report.h"
 #include "calib/simulate/simulated_wall.h"
 #include "calib/store/store.h"
@@ -36,6 +39,10 @@ struct Arguments {
   std::string patterns;
   std::string photos;
   std::vector<std::string> skip;
+  std::vector<std::string> only;
+  std::vector<std::string> nudges;
+  std::vector<std::string> clearNudges;
+  bool check = false;
   bool all = false;
 };
 
@@ -46,16 +53,16 @@ struct Source {
   bool live = false;
 };
 
-Source simulatedSource(const fs::path& folder, const Wall& wall) {
+Source simulatedSource(const fs::path& folder, const Wall& wall, const Arguments& arguments) {
   if (!wall.rig) throw ProcedureError((folder / "wall.yaml").string() + ": camera: sim needs a rig: FILE as well");
   Source source;
   source.live = true;
   source.room = std::make_unique<SimulatedWall>(loadRig(folder / *wall.rig));
   std::vector<devices::Projector*> projectors;
   for (std::size_t i = 0; i < source.room->projectorCount(); ++i) projectors.push_back(&source.room->projector(i));
-  source.photographs =
-      std::make_unique<LivePhotographs>(source.room->camera(), projectors, source.room->person(), folder / "captures",
-                                        formatRig(source.room->rig()), source.room->rig().checkerboardPoses);
+  source.photographs = std::make_unique<LivePhotographs>(
+      source.room->camera(), projectors, source.room->person(), arguments.check ? fs::path() : folder / "captures",
+      formatRig(source.room->rig()), source.room->rig().checkerboardPoses);
   return source;
 }
 
@@ -64,7 +71,7 @@ Source openSource(const fs::path& folder, const Wall& wall, const Arguments& arg
   if (!arguments.photos.empty()) {
     return {nullptr, std::make_unique<FolderPhotographs>(arguments.photos, captures), false};
   }
-  if (wall.camera.source == "sim") return simulatedSource(folder, wall);
+  if (wall.camera.source == "sim") return simulatedSource(folder, wall, arguments);
   if (wall.camera.source == "photos") {
     if (fs::is_directory(captures)) return {nullptr, std::make_unique<FolderPhotographs>(captures, captures), false};
     throw ProcedureError(folder.string() +
@@ -82,10 +89,10 @@ void writePatternFolder(const Wall& wall, const Arguments& arguments) {
              arguments.patterns, (fs::path(arguments.patterns) / "README.txt").string());
 }
 
-void refuseUnknownSkips(const Wall& wall, const Arguments& arguments) {
-  for (const auto& name : arguments.skip) {
+void requireProjectors(const Wall& wall, const std::string& option, const std::vector<std::string>& names) {
+  for (const auto& name : names) {
     if (std::ranges::find(wall.projectors, name, &ProjectorConfig::name) == wall.projectors.end()) {
-      throw ProcedureError("--skip " + name + ": no projector of this name in wall.yaml");
+      throw ProcedureError(option + " " + name + ": no projector of this name in wall.yaml");
     }
   }
 }
@@ -112,12 +119,37 @@ void calibrateFlat(const fs::path& folder, const Wall& wall) {
   finish(folder, wall, calibration);
 }
 
+void check(const fs::path& folder, const Wall& wall, const Arguments& arguments) {
+  const Source source = openSource(folder, wall, arguments);
+  ConsoleProgress progress;
+  const auto drifts = checkDrift(loadCalibration(folder), *source.photographs, arguments.only, progress);
+  fmt::print("\n{}", formatDrifts(drifts));
+}
+
+void changeNudges(const fs::path& folder, const Wall& wall, const Arguments& arguments) {
+  if (arguments.nudges.empty() && arguments.clearNudges.empty()) return;
+  Nudges nudges = loadNudges(folder);
+  requireProjectors(wall, "--clear-nudge", arguments.clearNudges);
+  for (const auto& name : arguments.clearNudges) nudges.erase(name);
+  for (const auto& text : arguments.nudges) {
+    const auto [name, nudge] = parseNudgeArgument(text);
+    requireProjectors(wall, "--nudge", {name});
+    const auto config = std::ranges::find(wall.projectors, name, &ProjectorConfig::name);
+    (void)nudgedFromMeasured(nudge, config->resolution);  // refuses corners that fold the frame
+    nudges[name] = nudge;
+  }
+  saveNudges(folder, nudges);
+}
+
 void calibrate(const Arguments& arguments) {
   const fs::path folder = arguments.wall;
   const Wall wall = loadWall(folder);
   if (!arguments.patterns.empty()) return writePatternFolder(wall, arguments);
   if (wall.isFlat()) return calibrateFlat(folder, wall);
-  refuseUnknownSkips(wall, arguments);
+  requireProjectors(wall, "--skip", arguments.skip);
+  requireProjectors(wall, "--only", arguments.only);
+  if (arguments.check) return check(folder, wall, arguments);
+  changeNudges(folder, wall, arguments);
   Source source;
   if (needsPhotographs(arguments)) source = openSource(folder, wall, arguments);
   ConsoleProgress progress;
@@ -126,6 +158,7 @@ void calibrate(const Arguments& arguments) {
   const auto ran = procedure.run({.steps = arguments.steps,
                                   .force = arguments.all,
                                   .skip = {arguments.skip.begin(), arguments.skip.end()},
+                                  .only = {arguments.only.begin(), arguments.only.end()},
                                   .goOnWithoutFailed = source.live});
   if (ran.empty()) fmt::print("nothing has changed since the last calibration (--all measures again)\n");
   if (!ran.empty()) procedure.save();
@@ -147,6 +180,13 @@ int main(int argc, char** argv) {
       app.add_option("--patterns", arguments.patterns, "only write what each projector must show into this folder");
   app.add_option("--photos", arguments.photos, "work from the photographs in this folder")->excludes(patterns);
   app.add_option("--skip", arguments.skip, "leave these projectors out")->delimiter(',');
+  app.add_option("--only", arguments.only, "measure these projectors again, against the stored rest")->delimiter(',');
+  app.add_flag("--check", arguments.check, "photograph one pattern per projector and say how far each has moved");
+  app.add_option(
+      "--nudge", arguments.nudges,
+      "correct by hand, in projector pixels and degrees: NAME:x=1.5,y=-0.5,roll=0.1,tl=X/Y,tr=X/Y,br=X/Y,bl=X/Y; "
+      "stays through calibrations");
+  app.add_option("--clear-nudge", arguments.clearNudges, "take the correction by hand away again")->delimiter(',');
   app.add_flag("--all", arguments.all, "every step, stale or not");
   try {
     app.parse(argc, argv);

@@ -43,4 +43,17 @@ std::string formatTable(const Wall& wall, const Calibration& calibration, const 
   return table;
 }
 
+std::string formatDrifts(const std::vector<ProjectorDrift>& drifts) {
+  std::size_t width = std::string_view("projector").size();
+  for (const auto& projector : drifts) width = std::max(width, projector.name.size());
+  std::string table = fmt::format("{:<{}}  {:>7}  {:>8} {:>8}  {:>7} {:>7}  {}\n", "projector", width, "blobs", "x px",
+                                  "y px", "rms px", "max px", "verdict");
+  for (const auto& [name, drift, verdict] : drifts) {
+    table += fmt::format("{:<{}}  {:>7}  {:>+8.2f} {:>+8.2f}  {:>7.2f} {:>7.2f}  {}\n", name, width,
+                         fmt::format("{}/{}", drift.found, drift.expected), drift.shift.x, drift.shift.y, drift.rms,
+                         drift.maximum, verdict);
+  }
+  return table;
+}
+
 }  // namespace pixelflex::calib

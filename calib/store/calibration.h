@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/store/nudge.h"
 #include "devices/image/size.h"
 
 namespace pixelflex::calib {
@@ -72,6 +73,7 @@ struct ProjectorCalibration {
   std::optional<std::string> alpha;  // 16-bit PNG of the projector's resolution, relative to the wall's folder
   std::optional<std::string>
       response;                      // 256 rows value,red,green,blue; normalised light, relative to the wall's folder
+  std::optional<Nudge> nudge;        // from nudge.yaml; not part of calibration.yaml
   std::optional<glm::ivec2> flatAt;  // an exact screen: shows desktop pixels one to one from here
   bool operator==(const ProjectorCalibration&) const = default;
 };

@@ -67,7 +67,12 @@ Calibration loadCalibration(const std::filesystem::path& folder) {
   if (!hasCalibration(folder)) {
     fail(path, "the wall is not calibrated yet: run pixelflex calibrate " + folder.string());
   }
-  return parseCalibration(readStoreFile(path.string()), path.string());
+  Calibration calibration = parseCalibration(readStoreFile(path.string()), path.string());
+  const Nudges nudges = loadNudges(folder);
+  for (auto& projector : calibration.projectors) {
+    if (const auto found = nudges.find(projector.name); found != nudges.end()) projector.nudge = found->second;
+  }
+  return calibration;
 }
 
 // What is saved must load again, so the text is parsed, and thereby validated, before it replaces a good file.

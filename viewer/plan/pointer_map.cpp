@@ -12,7 +12,7 @@ PointerMap::PointerMap(const WallPlan& wall, devices::Size desktop) : desktop_(d
   display.resolution = desktop;
   desktopFromWall_ = calib::desktopFromWall(display);
   for (const auto* projector : wall.projectors()) {
-    screens_.push_back({calib::ProjectorMapping(projector->model, projector->resolution), projector->flatAt});
+    screens_.push_back({calib::ProjectorMapping(*projector), projector->flatAt});
   }
 }
 

@@ -113,7 +113,7 @@ OutputPlan WallPlan::outputFor(std::size_t index, devices::Size desktop) const {
   if (projector.flatAt) return plan;
   calib::Display display = *calibration_.display;
   display.resolution = desktop;
-  const calib::ProjectorMapping mapping(projector.model, projector.resolution);
+  const calib::ProjectorMapping mapping(projector);
   const TileLayout layout(desktop);
   try {
     plan.mesh = toWarpMesh(calib::buildPatchMesh(mapping, display, patchesOf(layout)));
