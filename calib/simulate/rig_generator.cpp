@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <string>
@@ -20,6 +21,8 @@ constexpr double kFrameWidth = 1300;  // mm on the wall
 constexpr double kOverlap = 0.2;
 constexpr double kLeastOverlap = 0.12;
 constexpr double kMostOverlap = 0.28;
+
+constexpr std::array kTwoByTwo{glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)};
 
 double rounded(double value, double step) {
   return std::round(value / step) * step;
@@ -83,22 +86,30 @@ double litArea(const ProjectorLight& light) {
   return std::abs(twice) / 2;
 }
 
+/// The part of the wall that a frame is meant for.
+struct Place {
+  glm::dvec2 target{0, 0};     // of the frame's middle, mm
+  double width = kFrameWidth;  // of the frame, mm along the projector's own rows
+  double roll = 0;             // degrees: 90 for a projector that stands on its side
+};
+
 /// Aims by hand: turned by up to `slack` times the largest angles, at the distance where the frame has its nominal
 /// area.
-void aim(SimulatedProjectorSpec& spec, glm::dvec2 target, double slack, Random& random) {
+void aim(SimulatedProjectorSpec& spec, const Place& place, double slack, Random& random) {
   const glm::dvec2 size(spec.resolution.width, spec.resolution.height);
-  const double height = kFrameWidth * size.y / size.x;
-  spec.pose.rotation =
-      decimals(slack * glm::dvec3(random.between(-8, 8), random.between(-8, 8), random.between(-2.5, 2.5)), 2);
+  const double width = place.width;
+  const double height = width * size.y / size.x;
+  const glm::dvec3 turn(random.between(-8, 8), random.between(-8, 8), random.between(-2.5, 2.5));
+  spec.pose.rotation = decimals(slack * turn + glm::dvec3(0, 0, place.roll), 2);
   const glm::dvec2 at =
-      target + slack * 0.03 * glm::dvec2(random.between(-kFrameWidth, kFrameWidth), random.between(-height, height));
+      place.target + slack * 0.03 * glm::dvec2(random.between(-width, width), random.between(-height, height));
   const PlanarScreen screen;
   const auto along = PlacedOptics(spec.pose, spec.optics).direction(0.5 * size).value_or(glm::dvec3(0, 0, 1));
-  spec.pose.position = glm::dvec3(at, 0) - along * kFrameWidth;
+  spec.pose.position = glm::dvec3(at, 0) - along * width;
   // On a plane the lit area grows with the square of the distance.
-  const double wanted = kFrameWidth * height * (1 + slack * random.between(-0.03, 0.03));
+  const double wanted = width * height * (1 + slack * random.between(-0.03, 0.03));
   const double scale = std::sqrt(wanted / litArea(ProjectorLight(spec, screen)));
-  spec.pose.position = decimals(glm::dvec3(at, 0) - along * (kFrameWidth * scale), 1);
+  spec.pose.position = decimals(glm::dvec3(at, 0) - along * (width * scale), 1);
 }
 
 bool fits(Overlap overlap) {
@@ -113,7 +124,7 @@ void addProjector(Rig& rig, int column, int row, int columns, devices::Size reso
   auto spec = drawProjector(random, resolution, fmt::format("p{}", rig.projectors.size() + 1));
   for (int attempt = 0; attempt <= kTries; ++attempt) {
     // Less and less casual, so that an end is certain: square on, the grid overlaps as planned.
-    aim(spec, target, 1 - static_cast<double>(attempt) / kTries, random);
+    aim(spec, {target}, 1 - static_cast<double>(attempt) / kTries, random);
     const ProjectorLight light(spec, screen);
     const auto at = [&](int c, int r) {
       return ProjectorLight(rig.projectors.at(static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) +
@@ -169,6 +180,20 @@ void addScreen(Rig& rig) {
   }
 }
 
+/// A projector where it is meant to be, but for `slack`.
+void addPlaced(Rig& rig, SimulatedProjectorSpec spec, const Place& place, double slack, Random& random) {
+  spec.name = fmt::format("p{}", rig.projectors.size() + 1);
+  aim(spec, place, slack, random);
+  rig.projectors.push_back(std::move(spec));
+}
+
+Rig finished(Rig rig, Random& random) {
+  addMarkers(rig, random);
+  addScreen(rig);
+  placeCamera(rig);
+  return rig;
+}
+
 }  // namespace
 
 Rig casualRig(int columns, int rows, devices::Size resolution, std::uint32_t seed, devices::Size cameraSize) {
@@ -180,10 +205,7 @@ Rig casualRig(int columns, int rows, devices::Size resolution, std::uint32_t see
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) addProjector(rig, column, row, columns, resolution, random);
   }
-  addMarkers(rig, random);
-  addScreen(rig);
-  placeCamera(rig);
-  return rig;
+  return finished(std::move(rig), random);
 }
 
 Rig reportRig(std::uint32_t seed) {
@@ -192,6 +214,60 @@ Rig reportRig(std::uint32_t seed) {
 
 Rig miniRig(std::uint32_t seed) {
   return casualRig(2, 1, {640, 480}, seed, {960, 600});
+}
+
+Rig stackedRig(std::uint32_t seed) {
+  Random random(seed);
+  Rig rig{.seed = seed};
+  constexpr devices::Size kResolution{1024, 768};
+  const double step = (1 - kOverlap) * kFrameWidth;
+  for (int layer = 0; layer < 2; ++layer) {
+    for (const glm::dvec2 cell : kTwoByTwo) {
+      const glm::dvec2 target = step * cell * glm::dvec2(1, 0.75);
+      addPlaced(rig, drawProjector(random, kResolution, ""), {target}, 0.5, random);
+    }
+  }
+  return finished(std::move(rig), random);
+}
+
+Rig portraitRig(std::uint32_t seed) {
+  Random random(seed);
+  Rig rig{.seed = seed};
+  constexpr devices::Size kResolution{1024, 768};
+  const double step = (1 - kOverlap) * 0.75 * kFrameWidth;
+  for (int i = 0; i < 3; ++i) {
+    // Some people turn a projector to the left, some to the right.
+    addPlaced(rig, drawProjector(random, kResolution, ""), {{step * i, 0}, kFrameWidth, i == 1 ? -90.0 : 90.0}, 0.5,
+              random);
+  }
+  return finished(std::move(rig), random);
+}
+
+Rig shortThrowRig(std::uint32_t seed) {
+  Random random(seed);
+  Rig rig{.seed = seed};
+  constexpr devices::Size kResolution{1280, 800};
+  const double step = (1 - kOverlap) * kFrameWidth;
+  for (const glm::dvec2 cell : kTwoByTwo) {
+    auto spec = drawProjector(random, kResolution, "");
+    spec.optics.focal = decimals(kResolution.width * random.between(0.78, 0.85), 1);
+    // Shifted by half a frame: from a table upwards, from the ceiling downwards.
+    spec.optics.principal.y = cell.y * kResolution.height;
+    spec.optics.radial = {decimals(random.between(-0.15, -0.1), 4), decimals(random.between(0.03, 0.05), 4), 0};
+    const glm::dvec2 target = step * cell * glm::dvec2(1, 0.625);
+    addPlaced(rig, std::move(spec), {target}, 0.4, random);
+  }
+  return finished(std::move(rig), random);
+}
+
+Rig insetRig(std::uint32_t seed) {
+  Random random(seed);
+  Rig rig{.seed = seed};
+  constexpr devices::Size kResolution{1024, 768};
+  addPlaced(rig, drawProjector(random, kResolution, ""), {}, 1, random);
+  const glm::dvec2 target{random.between(-250, 250), random.between(-150, 150)};
+  addPlaced(rig, drawProjector(random, kResolution, ""), {target, kFrameWidth / 3}, 1, random);
+  return finished(std::move(rig), random);
 }
 
 }  // namespace pixelflex::calib

@@ -20,4 +20,18 @@ namespace pixelflex::calib {
 /// Two 640x480 projectors side by side and a 960x600 camera, for quick tries.
 [[nodiscard]] Rig miniRig(std::uint32_t seed);
 
+/// Four 1024x768 projectors, two by two, almost entirely covered by four others (the report's figure 13): p1 under p5
+/// and so on.
+[[nodiscard]] Rig stackedRig(std::uint32_t seed);
+
+/// Three 1024x768 projectors side by side that stand on their sides, rolled by 90 degrees one way or the other.
+[[nodiscard]] Rig portraitRig(std::uint32_t seed);
+
+/// Four 1280x800 projectors, two by two, with a throw of about 0.8, lenses shifted by half a frame and a k1 of -0.1 to
+/// -0.15.
+[[nodiscard]] Rig shortThrowRig(std::uint32_t seed);
+
+/// A 1024x768 projector p1 and inside its frame p2, of the same resolution at three times the density.
+[[nodiscard]] Rig insetRig(std::uint32_t seed);
+
 }  // namespace pixelflex::calib
