@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,15 +20,23 @@ struct ErrorFigures {
 [[nodiscard]] ErrorFigures figuresOf(std::vector<double> errors);
 [[nodiscard]] std::string text(const ErrorFigures& figures);
 
-/// The contract's registration and seam error. `shown[i]`: what projector i really shows, a desktop of its own
-/// coordinates drawn by the renderer: four floats a pixel, desktop x and y, and in the fourth whether the mesh is
-/// there. Ground truth comes from the simulated optics alone.
+/// The contract's registration and seam error.
 struct RegistrationFigures {
   std::vector<ErrorFigures> registration;  // per projector
   ErrorFigures all;
   ErrorFigures seam;  // over all pairs
 };
-[[nodiscard]] RegistrationFigures measureRegistration(const SimulatedWall& room, const Display& display,
-                                                      const std::vector<devices::ImageF>& shown);
+
+/// The wall place that a calibration means a point of a projector's frame to light; none where it says nothing.
+using MeantPlace = std::function<std::optional<glm::dvec2>(std::size_t projector, glm::dvec2 pointInProjector)>;
+
+/// Errors at every third pixel both ways against the simulated optics alone. In pixels of the projector looked at, for
+/// seams of the pair's first; or everywhere in pixels of the projector `unit` (which must light those places).
+[[nodiscard]] RegistrationFigures measureRegistration(const SimulatedWall& room, const MeantPlace& meant,
+                                                      std::optional<std::size_t> unit = std::nullopt);
+
+/// The places that pictures of a coordinate desktop mean. `shown[i]`: what projector i really shows, four floats a
+/// pixel, desktop x and y, and in the fourth whether the mesh is there. Keeps a reference to `shown`.
+[[nodiscard]] MeantPlace meantByPictures(const Display& display, const std::vector<devices::ImageF>& shown);
 
 }  // namespace pixelflex::calib

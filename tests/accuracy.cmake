@@ -1,0 +1,17 @@
+# Registration against ground truth through the real renderer.
+target_sources(pixelflex_test_calibration
+  PRIVATE support_calibration/coordinate_desktop.cpp
+  PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES support_calibration/coordinate_desktop.h)
+target_link_libraries(pixelflex_test_calibration PUBLIC pixelflex_plan PRIVATE pixelflex_renderer)
+
+add_executable(accuracy_table accuracy/accuracy_table.cpp accuracy/accuracy_rigs.cpp accuracy/report_pipeline.cpp)
+target_link_libraries(accuracy_table PRIVATE pixelflex_options pixelflex_test_calibration pixelflex_test_support
+  CGAL::CGAL CLI11::CLI11 fmt::fmt opencv_core opencv_imgproc opencv_calib3d)
+target_include_directories(accuracy_table SYSTEM PRIVATE ${OpenCV_INCLUDE_DIRS})
+set_target_properties(accuracy_table PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+# What a pair must hold and what an inset must at least survive; by hand: accuracy_table --seeds 5.
+add_test(NAME accuracy_pair COMMAND accuracy_table --strict --rigs pair)
+add_test(NAME accuracy_inset COMMAND accuracy_table --rigs inset)
+set_tests_properties(accuracy_pair accuracy_inset PROPERTIES LABELS "accuracy;gl" TIMEOUT 300 ENVIRONMENT "LIBGL_ALWAYS_SOFTWARE=1")
+
+pixelflex_test(rig_layouts_test LABEL unit SOURCES accuracy/rig_layouts_test.cpp LINK pixelflex_simulate)
