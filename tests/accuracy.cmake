@@ -14,4 +14,7 @@ add_test(NAME accuracy_pair COMMAND accuracy_table --strict --rigs pair)
 add_test(NAME accuracy_inset COMMAND accuracy_table --rigs inset)
 set_tests_properties(accuracy_pair accuracy_inset PROPERTIES LABELS "accuracy;gl" TIMEOUT 300 ENVIRONMENT "LIBGL_ALWAYS_SOFTWARE=1")
 
+# The largest rectangle against brute force.
+pixelflex_test(display_optimum_test LABEL unit SOURCES accuracy/display_optimum_test.cpp LINK pixelflex_geometry)
+
 pixelflex_test(rig_layouts_test LABEL unit SOURCES accuracy/rig_layouts_test.cpp LINK pixelflex_simulate)
