@@ -17,4 +17,13 @@ set_tests_properties(accuracy_pair accuracy_inset PROPERTIES LABELS "accuracy;gl
 # The largest rectangle against brute force.
 pixelflex_test(display_optimum_test LABEL unit SOURCES accuracy/display_optimum_test.cpp LINK pixelflex_geometry)
 
+# OpenCV's own photographs, of Debian's package opencv-doc, wherever that is installed.
+set(PIXELFLEX_OPENCV_PHOTOS /usr/share/doc/opencv-doc/examples/data CACHE PATH "left01.jpg ... of OpenCV's samples")
+if(EXISTS ${PIXELFLEX_OPENCV_PHOTOS}/left01.jpg)
+  pixelflex_test(opencv_photos_test LABEL unit SOURCES accuracy/opencv_photos_test.cpp
+    LINK pixelflex_estimate pixelflex_image opencv_core opencv_imgproc opencv_calib3d)
+  target_include_directories(opencv_photos_test SYSTEM PRIVATE ${OpenCV_INCLUDE_DIRS})
+  target_compile_definitions(opencv_photos_test PRIVATE PIXELFLEX_OPENCV_PHOTOS="${PIXELFLEX_OPENCV_PHOTOS}")
+endif()
+
 pixelflex_test(rig_layouts_test LABEL unit SOURCES accuracy/rig_layouts_test.cpp LINK pixelflex_simulate)
