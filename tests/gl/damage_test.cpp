@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cstdlib>
-#include <ctime>
 #include <limits>
 
 #include "devices/display/gl_context.h"
@@ -264,46 +262,6 @@ TEST_F(DamageTest, TheCursorIsDrawnMovedAndLeavesNoTrace) {
   for (std::size_t i = 0; i < plans.size(); ++i) {
     EXPECT_TRUE(testing::imageNear(renderer.readOutput(i), without[i], 0, "cursor-hidden-" + std::to_string(i)));
   }
-}
-
-TEST_F(DamageTest, EightProjectorsAreDrawnQuickly) {
-  const Size desktop{3600, 1400};
-  const Size resolution{1024, 768};
-  std::vector<OutputPlan> plans;
-  for (int i = 0; i < 8; ++i) {
-    const Size part{1100, 820};
-    const auto inPart = testing::bentMap(resolution, part);
-    const auto [row, column] = std::div(i, 4);
-    const glm::dvec2 shift(800.0 * column, 600.0 * row);
-    const testing::WeightedMap map = [=](glm::dvec2 p) {
-      const auto at = inPart(p);
-      return glm::dvec3(at.x + shift.x * at.z, at.y + shift.y * at.z, at.z);
-    };
-    plans.push_back(testing::planOf("p", map, resolution, desktop, 32, 24));
-    plans.back().alpha = devices::Image16(resolution, 1);
-    for (auto& sample : plans.back().alpha.samples()) sample = 60000;
-    for (auto& channel : plans.back().inverseResponse) {
-      for (int e = 0; e < 1024; ++e) channel.push_back(static_cast<float>(e) / 1023.0F);
-    }
-  }
-  const auto batch = testing::wholeBatch(testing::testDesktop(desktop));
-  WallRenderer renderer(context_);
-  renderer.setPlans(plans);
-  renderer.upload(batch);
-  renderer.draw();
-  renderer.markAll();
-  const auto wall = renderer.stats().drawTime;
-  const auto processor = std::clock();
-  renderer.draw();
-  const double spent = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
-  const auto seconds = [](auto time) { return std::to_string(std::chrono::duration<double>(time).count()); };
-  RecordProperty("processor_seconds", std::to_string(spent));
-  RecordProperty("draw_seconds", seconds(renderer.stats().drawTime - wall));
-  RecordProperty("first_draw_seconds", seconds(wall));
-  RecordProperty("upload_seconds", seconds(renderer.stats().uploadTime));
-  // 6.3 million pixels without a GPU take about half a second of all cores together. The processor's time, as others
-  // may use the machine too.
-  EXPECT_LE(spent, 4.0);
 }
 
 }  // namespace
