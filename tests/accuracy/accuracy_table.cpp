@@ -78,7 +78,7 @@ void addSeed(const AccuracyRig& kind, std::uint32_t seed, Rows& rows) {
   }
   const viewer::WallPlan wall(folder.path(), calibrated.wall, calibrated.calibration, {});
   const auto shown = showCoordinates(room.rig(), wall);
-  rows.ours.add(measureRegistration(room, meantByPictures(*calibrated.calibration.display, shown), kind.unit));
+  rows.ours.add(measureRegistration(room, meantByPictures(calibrated.calibration.display.value(), shown), kind.unit));
   rows.report.add(
       measureRegistration(room, meantByReportPipeline(folder / "captures", calibrated.calibration), kind.unit));
 }

@@ -16,7 +16,8 @@ double sharedPart(const SimulatedWall& room, std::size_t own, std::size_t other)
   const auto& projectors = room.rig().projectors;
   int inside = 0;
   for (int i = 0; i < kGrid * kGrid; ++i) {
-    const glm::dvec2 part((i % kGrid + 0.5) / kGrid, (i / kGrid + 0.5) / kGrid);
+    const int row = i / kGrid;
+    const glm::dvec2 part((i % kGrid + 0.5) / kGrid, (row + 0.5) / kGrid);
     const devices::Size size = projectors[own].resolution;
     const auto wall = room.wallFromProjector(own, part * glm::dvec2(size.width, size.height));
     const auto there = wall ? room.projectorFromWall(other, *wall) : std::nullopt;
@@ -33,7 +34,8 @@ glm::dvec2 span(const SimulatedWall& room, std::size_t projector, bool column) {
   const devices::Size size = room.rig().projectors[projector].resolution;
   const glm::dvec2 middle(size.width / 2.0, size.height / 2.0);
   const glm::dvec2 half = column ? glm::dvec2(0, middle.y) : glm::dvec2(middle.x, 0);
-  return *room.wallFromProjector(projector, middle + half) - *room.wallFromProjector(projector, middle - half);
+  return room.wallFromProjector(projector, middle + half).value() -
+         room.wallFromProjector(projector, middle - half).value();
 }
 
 TEST(RigLayouts, StackedPairsCoverEachOther) {

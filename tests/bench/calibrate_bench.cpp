@@ -104,15 +104,15 @@ void solve(int projectors, const fs::path& folder) {
   procedure.run({.force = true, .goOnWithoutFailed = true});
   procedure.save();
   const double seconds = secondsSince(begin);
+  const devices::Size camera = procedure.calibration().camera.value().size;
   double load = 0;
   getloadavg(&load, 1);
   fmt::print(
       "{{\"benchmark\": \"calibrate\", \"projectors\": {}, \"calibrated\": {}, \"photographs\": {}, \"camera\": [{}, "
       "{}], "
       "\"seconds\": {:.3f}, \"peak_mb\": {:.0f}, \"load\": {:.1f}, \"steps\": {{{}}}}}\n",
-      projectors, procedure.calibration().projectors.size(), projectors * kPatternCount,
-      procedure.calibration().camera->size.width, procedure.calibration().camera->size.height, seconds, peakMegabytes(),
-      load, progress.steps());
+      projectors, procedure.calibration().projectors.size(), projectors * kPatternCount, camera.width, camera.height,
+      seconds, peakMegabytes(), load, progress.steps());
   if (procedure.calibration().projectors.size() != static_cast<std::size_t>(projectors)) {
     throw std::runtime_error("not every projector was calibrated");
   }
