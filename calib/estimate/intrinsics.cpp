@@ -20,6 +20,28 @@ double smallestSpacing(const std::vector<cv::Point2f>& corners, int columns) {
   return smallest;
 }
 
+/// The board's corners, roughly, in a grey picture; empty when it is not seen whole. Searched in a picture of moderate
+/// size, where blur and noise are averaged out and a cluttered picture does not take minutes; a small board far away is
+/// then looked for at full size by the second detector, which is slower but bounded.
+std::vector<cv::Point2f> searchBoard(const cv::Mat& grey, const Checkerboard& board) {
+  constexpr double kModerate = 1000;  // pixels on the longer side
+  constexpr int kFlags = cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK;
+  const cv::Size pattern(board.columns, board.rows);
+  const double scale = std::min(1.0, kModerate / std::max(grey.cols, grey.rows));
+  cv::Mat moderate;
+  cv::resize(grey, moderate, {}, scale, scale, cv::INTER_AREA);
+  std::vector<cv::Point2f> corners;
+  if (cv::findChessboardCorners(moderate, pattern, corners, kFlags)) {
+    for (auto& corner : corners) {
+      corner.x = static_cast<float>((corner.x + kHalfPixel) / scale - kHalfPixel);
+      corner.y = static_cast<float>((corner.y + kHalfPixel) / scale - kHalfPixel);
+    }
+    return corners;
+  }
+  if (!cv::findChessboardCornersSB(grey, pattern, corners, cv::CALIB_CB_NORMALIZE_IMAGE)) return {};
+  return corners;
+}
+
 struct Solution {
   double rms = 0;
   cv::Mat matrix;
@@ -93,10 +115,8 @@ std::optional<std::vector<glm::dvec2>> findCheckerboard(const devices::Image8& p
   const cv::Mat rgb(photo.height(), photo.width(), CV_8UC3, const_cast<std::uint8_t*>(photo.samples().data()));
   cv::Mat grey;
   cv::cvtColor(rgb, grey, cv::COLOR_RGB2GRAY);
-  std::vector<cv::Point2f> corners;
-  const cv::Size pattern(board.columns, board.rows);
-  constexpr int kFlags = cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK;
-  if (!cv::findChessboardCorners(grey, pattern, corners, kFlags)) return std::nullopt;
+  std::vector<cv::Point2f> corners = searchBoard(grey, board);
+  if (corners.empty()) return std::nullopt;
   // A window that reaches the neighbouring corner is worse than a small one (calibration reference 7).
   const int window = std::clamp(static_cast<int>(0.35 * smallestSpacing(corners, board.columns)), 2, 11);
   cv::cornerSubPix(grey, corners, {window, window}, {-1, -1},

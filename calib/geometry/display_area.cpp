@@ -145,26 +145,23 @@ Coverage::Coverage(std::span<const Outline> footprints, double pixelsPerUnit) : 
   origin_ = bounds.low;
   width_ = static_cast<int>(cells.x);
   height_ = static_cast<int>(cells.y);
-  const std::size_t cornerStride = static_cast<std::size_t>(width_) + 1;
-  std::vector<unsigned char> above(cornerStride);
-  std::vector<unsigned char> below(cornerStride);
   cells_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  for (const auto& outline : footprints) addFootprint(outline);
+}
+
+void Coverage::addFootprint(const Outline& outline) {
+  constexpr double kHair = 1e-6;  // cells: a corner on the outline is inside, whatever the rounding
+  std::vector<double> above;
   for (int y = 0; y <= height_; ++y) {
-    std::ranges::fill(below, static_cast<unsigned char>(0));
-    for (const auto& outline : footprints) {
-      const auto xs = crossings(outline, origin_.y + y / pixelsPerUnit_);
-      for (std::size_t i = 0; i + 1 < xs.size(); i += 2) {
-        constexpr double kHair = 1e-6;  // cells: a corner on the outline is inside, whatever the rounding
-        const int from = std::max(0, static_cast<int>(std::ceil((xs[i] - origin_.x) * pixelsPerUnit_ - kHair)));
-        const int to = std::min(width_, static_cast<int>(std::floor((xs[i + 1] - origin_.x) * pixelsPerUnit_ + kHair)));
-        for (int x = from; x <= to; ++x) below[static_cast<std::size_t>(x)] = 1;
-      }
+    auto below = crossings(outline, origin_.y + y / pixelsPerUnit_);
+    for (std::size_t i = 0; i + 1 < std::min(above.size(), below.size()); i += 2) {
+      const double left = std::max(above[i], below[i]);
+      const double right = std::min(above[i + 1], below[i + 1]);
+      const int from = std::max(0, static_cast<int>(std::ceil((left - origin_.x) * pixelsPerUnit_ - kHair)));
+      const int to = std::min(width_, static_cast<int>(std::floor((right - origin_.x) * pixelsPerUnit_ + kHair)));
+      for (int x = from; x < to; ++x) cells_[index(x, y - 1)] = 1;
     }
-    for (int x = 0; y > 0 && x < width_; ++x) {
-      const auto i = static_cast<std::size_t>(x);
-      cells_[index(x, y - 1)] = above[i] & above[i + 1] & below[i] & below[i + 1];
-    }
-    std::swap(above, below);
+    above = std::move(below);
   }
 }
 

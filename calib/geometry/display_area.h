@@ -14,8 +14,9 @@ namespace pixelflex::calib {
 /// Which desktop pixels are wholly lit: a lattice of square cells laid over the wall.
 class Coverage {
  public:
-  /// A lattice over the footprints' bounding box with `pixelsPerUnit` cells per wall unit. A cell counts when its four
-  /// corners are each inside some footprint. Throws GeometryError when the lattice would exceed 2^29 cells.
+  /// A lattice over the footprints' bounding box with `pixelsPerUnit` cells per wall unit. A cell counts when one
+  /// footprint holds its four corners: no notch between two footprints can hide in it. Throws GeometryError when the
+  /// lattice would exceed 2^29 cells.
   Coverage(std::span<const Outline> footprints, double pixelsPerUnit);
 
   [[nodiscard]] int width() const { return width_; }
@@ -27,6 +28,7 @@ class Coverage {
   void erode(int margin);
 
  private:
+  void addFootprint(const Outline& outline);
   [[nodiscard]] std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }

@@ -14,7 +14,8 @@ namespace pixelflex::calib {
 namespace {
 
 constexpr double kSaturatedCode = 250;  // of 255
-constexpr double kFaintestLight = 4;    // codes between black and white below which nothing can be measured
+constexpr double kMostBend = 0.5;     // cells that a wide lens may bend the grid; a misread code is off by one at least
+constexpr double kFaintestLight = 4;  // codes between black and white below which nothing can be measured
 
 std::size_t indexOf(Pattern pattern) {
   return static_cast<std::size_t>(pattern);
@@ -183,20 +184,32 @@ class Decoder {
     for (const auto& [id, spot] : best) spots.push_back(spot);
   }
 
+  [[nodiscard]] std::vector<cv::Point2d> pointsInProjector(const std::vector<Spot>& spots) const {
+    std::vector<cv::Point2d> points;
+    for (const auto& spot : spots) points.emplace_back(layout_.centre(spot.id).x, layout_.centre(spot.id).y);
+    return points;
+  }
+  [[nodiscard]] std::vector<cv::Point2d> pointsInCamera(const std::vector<Spot>& spots) const {
+    std::vector<cv::Point2d> points;
+    for (const auto& spot : spots) {
+      const glm::dvec2 undistorted = camera_.undistortedFromRaw(spot.pointInRaw);
+      points.emplace_back(undistorted.x, undistorted.y);
+    }
+    return points;
+  }
+  [[nodiscard]] static Homography toHomography(const cv::Mat& h) {
+    std::array<double, 9> rowMajor{};
+    std::copy_n(h.ptr<double>(), 9, rowMajor.begin());
+    return Homography(rowMajor);
+  }
+
   /// A misread code puts a spot a whole cell away from where a homography expects it.
   void keepConsistent(std::vector<Spot>& spots) {
     if (spots.size() < 8) return;
-    std::vector<cv::Point2d> inProjector;
-    std::vector<cv::Point2d> inCamera;
-    for (const auto& spot : spots) {
-      const glm::dvec2 centre = layout_.centre(spot.id);
-      const glm::dvec2 undistorted = camera_.undistortedFromRaw(spot.pointInRaw);
-      inProjector.emplace_back(centre.x, centre.y);
-      inCamera.emplace_back(undistorted.x, undistorted.y);
-    }
     const double cell = std::sqrt(cv::countNonZero(frame_) / double(kBlobCount));  // camera pixels
     cv::Mat inliers;
-    const cv::Mat h = cv::findHomography(inProjector, inCamera, cv::RANSAC, 0.25 * cell, inliers, 2000, 0.999);
+    const cv::Mat h = cv::findHomography(pointsInProjector(spots), pointsInCamera(spots), cv::RANSAC, kMostBend * cell,
+                                         inliers, 2000, 0.999);
     if (h.empty()) {
       spots.clear();
       return;
@@ -205,26 +218,39 @@ class Decoder {
     for (std::size_t i = 0; i < spots.size(); ++i) {
       if (inliers.at<std::uint8_t>(static_cast<int>(i)) != 0) kept.push_back(spots[i]);
     }
-    misread_ = static_cast<int>(spots.size() - kept.size());
     spots = std::move(kept);
-    std::array<double, 9> rowMajor{};
-    std::copy_n(h.ptr<double>(), 9, rowMajor.begin());
-    cameraFromProjector_ = Homography(rowMajor);
+    cameraFromProjector_ = toHomography(h);
   }
 
-  /// Second pass: a Gaussian in projector space, under the first pass's map.
+  /// Second pass: a Gaussian in projector space, under the first pass's map. Around each blob that map is a homography
+  /// of its own, which follows the bend of a wide lens where one for the whole frame cannot.
   void refine(const std::vector<Spot>& spots) {
-    const Homography projectorFromCamera = cameraFromProjector_.inverse();
     for (const auto& spot : spots) {
+      const Homography cameraFromProjector = mapAround(spot, spots);
+      const Homography projectorFromCamera = cameraFromProjector.inverse();
       const glm::dvec2 start = projectorFromCamera.map(camera_.undistortedFromRaw(spot.pointInRaw));
-      const auto samples = samplesAround(spot, start, projectorFromCamera);
+      const auto samples = samplesAround(spot, start, cameraFromProjector);
       const auto fit = fitGaussian(samples, {start, layout_.sigma(), peak_, 0});
       if (!fit || !plausible(*fit, start)) continue;
-      result_.blobs.push_back({spot.id, cameraFromProjector_.map(fit->centre), spot.confidence});
+      result_.blobs.push_back({spot.id, cameraFromProjector.map(fit->centre), spot.confidence});
     }
     const glm::dvec2 middle = layout_.centre(kBlobCount / 2 + kBlobColumns / 2);
     const glm::dvec2 step = cameraFromProjector_.map(middle + glm::dvec2(1, 0)) - cameraFromProjector_.map(middle);
     result_.cameraScale = std::hypot(step.x, step.y);
+  }
+
+  /// Least squares through the spots nearest to one of them.
+  [[nodiscard]] Homography mapAround(const Spot& spot, std::vector<Spot> spots) const {
+    constexpr std::size_t kNeighbours = 16;
+    const glm::dvec2 centre = layout_.centre(spot.id);
+    const auto distance = [&](const Spot& other) {
+      const glm::dvec2 apart = layout_.centre(other.id) - centre;
+      return apart.x * apart.x + apart.y * apart.y;
+    };
+    std::ranges::sort(spots, {}, distance);
+    spots.resize(std::min(spots.size(), kNeighbours));
+    const cv::Mat h = cv::findHomography(pointsInProjector(spots), pointsInCamera(spots));
+    return h.empty() ? cameraFromProjector_ : toHomography(h);
   }
 
   [[nodiscard]] bool plausible(const GaussianFit& fit, glm::dvec2 start) const {
@@ -235,12 +261,13 @@ class Decoder {
   }
 
   [[nodiscard]] std::vector<LightSample> samplesAround(const Spot& spot, glm::dvec2 start,
-                                                       const Homography& projectorFromCamera) const {
+                                                       const Homography& cameraFromProjector) const {
+    const Homography projectorFromCamera = cameraFromProjector.inverse();
     const double reach = 3.2 * layout_.sigma();
     glm::dvec2 low = spot.pointInRaw;
     glm::dvec2 high = spot.pointInRaw;
     for (const glm::dvec2 corner : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)}) {
-      const glm::dvec2 raw = camera_.rawFromUndistorted(cameraFromProjector_.map(start + corner * reach));
+      const glm::dvec2 raw = camera_.rawFromUndistorted(cameraFromProjector.map(start + corner * reach));
       low = {std::min(low.x, raw.x), std::min(low.y, raw.y)};
       high = {std::max(high.x, raw.x), std::max(high.y, raw.y)};
     }
@@ -274,7 +301,7 @@ class Decoder {
       result_.hint = "the blobs are too small in the photograph: move the camera closer or use one with more pixels";
     } else if (result_.located < kBlobCount / 2) {
       result_.hint = "few blobs are visible: is the picture in focus, and is nothing standing before the wall?";
-    } else if (misread_ > 0 || result_.located >= kBlobCount) {
+    } else if (static_cast<int>(result_.blobs.size()) < kBlobCount * 9 / 10 && result_.located >= kBlobCount * 9 / 10) {
       result_.hint =
           "the code photographs contradict each other: was one taken of another pattern, or the camera moved?";
     } else {
@@ -293,7 +320,6 @@ class Decoder {
   cv::Mat light_;  // of the photograph of all blobs
   double peak_ = 0;
   bool cutOff_ = false;
-  int misread_ = 0;
   Homography cameraFromProjector_;  // undistorted camera
 };
 

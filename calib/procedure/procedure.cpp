@@ -282,7 +282,7 @@ std::string Procedure::runProjectors(const ProcedureOptions& options) {
       continue;
     }
     const BlobLayout layout(config.resolution);
-    auto photos = std::make_shared<PatternPhotos>();
+    auto photos = std::make_unique<PatternPhotos>();
     int shown = 0;
     for (const Pattern pattern : allPatterns()) {
       auto& photo = (*photos)[static_cast<std::size_t>(pattern)];
@@ -295,9 +295,12 @@ std::string Procedure::runProjectors(const ProcedureOptions& options) {
     }
     // One decoder at a time beside the camera: two cores, and a bounded number of photographs in memory.
     if (!decoding.empty()) decoding.back().second.wait();
-    decoding.emplace_back(&config, std::async(std::launch::async, [photos, layout, camera] {
-      return decodeBlobs(*photos, layout, camera);
-    }));
+    decoding.emplace_back(&config,
+                          std::async(std::launch::async, [photos = std::move(photos), layout, camera]() mutable {
+                            // Held here, not by the future: the photographs are many and large.
+                            const auto own = std::move(photos);
+                            return decodeBlobs(*own, layout, camera);
+                          }));
   }
   for (auto& [config, decoded] : decoding) addProjector(*config, decoded.get(), options);
   if (calibration_.projectors.size() == kept) throw ProcedureError("no projector could be calibrated");
