@@ -7,6 +7,7 @@
 
 #include "calib/simulate/rig.h"
 #include "calib/store/store.h"
+#include "devices/image/png_file.h"
 
 namespace pixelflex::testing {
 namespace {
@@ -51,10 +52,14 @@ TEST(HouseConfig, EveryWallIsInGoodOrder) {
   EXPECT_GE(walls, 2);
 }
 
-TEST(HouseConfig, EveryFileBelongsToARigOrAWall) {
+TEST(HouseConfig, EveryFileBelongsToARigAWallOrAPicture) {
   for (const auto& file : filesBelow(configFolder())) {
     const std::string path = fs::relative(file, configFolder()).string();
-    EXPECT_TRUE(path == "README.md" || path.starts_with("rigs/") || path.starts_with("walls/")) << path;
+    const bool picture = path.starts_with("pictures/");
+    EXPECT_TRUE(path == "README.md" || path.starts_with("rigs/") || path.starts_with("walls/") || picture) << path;
+    if (picture) {
+      EXPECT_NO_THROW((void)devices::readPng8(file)) << path;
+    }
   }
 }
 
