@@ -34,7 +34,7 @@ std::map<int, glm::dvec2> findMarkers(const devices::Image8& photo, const Camera
   cv::aruco::detectMarkers(grey, dictionary, corners, ids, parameters);
   std::map<int, glm::dvec2> centres;
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    std::array<glm::dvec2, 4> undistorted;
+    std::array<glm::dvec2, 4> undistorted{};
     for (std::size_t k = 0; k < 4; ++k) {
       undistorted[k] = camera.undistortedFromRaw({corners[i][k].x + 0.5, corners[i][k].y + 0.5});
     }

@@ -165,6 +165,21 @@ Photographs& Procedure::photographs(const std::string& step) const {
   return *photographs_;
 }
 
+const CameraIntrinsics& Procedure::knownCamera() const {
+  if (!calibration_.camera) throw ProcedureError("the camera is not calibrated: run pixelflex calibrate WALL camera");
+  return *calibration_.camera;
+}
+
+const SurfaceFit& Procedure::knownSurface() const {
+  if (!calibration_.surface) throw ProcedureError("the surface is not known: run pixelflex calibrate WALL surface");
+  return *calibration_.surface;
+}
+
+const Display& Procedure::knownDisplay() const {
+  if (!calibration_.display) throw ProcedureError("there is no display yet: run pixelflex calibrate WALL mesh");
+  return *calibration_.display;
+}
+
 void Procedure::requireEarlier(const std::string& step) const {
   const auto need = [&](bool there, const std::string& earlier) {
     if (!there) throw ProcedureError("step " + step + " needs " + earlier + " first: run pixelflex calibrate WALL");
@@ -185,6 +200,8 @@ std::string Procedure::runCamera(const ProcedureOptions&) {
   std::vector<CheckerboardView> views;
   devices::Size size;
   int seen = 0;
+  // clang-tidy does not see that the loop is entered only with a photograph.
+  // NOLINTBEGIN(bugprone-unchecked-optional-access)
   while (const auto shot = source.nextCheckerboard()) {
     if (seen > 0 && shot->photo.size() != size) {
       throw ProcedureError(shot->name + ": not of the same size as the photographs before it");
@@ -198,6 +215,7 @@ std::string Procedure::runCamera(const ProcedureOptions&) {
     }
     progress_.advance(++seen, source.checkerboardCount(), "checkerboard");
   }
+  // NOLINTEND(bugprone-unchecked-optional-access)
   if (seen == 0) {
     throw ProcedureError(
         "no checkerboard photographs (checkerboard/*.png) and no camera.yaml: about 15 photographs of the board are "
@@ -208,12 +226,12 @@ std::string Procedure::runCamera(const ProcedureOptions&) {
   } catch (const EstimateError& error) {
     throw ProcedureError(std::string("camera: ") + error.what());
   }
-  return count(static_cast<std::size_t>(calibration_.camera->photos), "photograph") + ", reprojection " +
-         rounded(calibration_.camera->rmsPx, 3) + " px RMS";
+  return count(static_cast<std::size_t>(knownCamera().photos), "photograph") + ", reprojection " +
+         rounded(knownCamera().rmsPx, 3) + " px RMS";
 }
 
 std::string Procedure::runSurface(const ProcedureOptions&) {
-  const FiducialSearch found = findFiducials(CameraMapping(*calibration_.camera));
+  const FiducialSearch found = findFiducials(CameraMapping(knownCamera()));
   if (found.pairs.size() < 4) {
     throw ProcedureError(found.photo + ": fewer than four fiducials: " + std::to_string(found.pairs.size()) + " of " +
                          std::to_string(wall_.surface.fiducials.size()) +
@@ -227,8 +245,8 @@ std::string Procedure::runSurface(const ProcedureOptions&) {
   } catch (const EstimateError& error) {
     throw ProcedureError("surface: " + std::string(error.what()));
   }
-  return count(found.pairs.size(), "fiducial") + ", fit " + rounded(calibration_.surface->rms, 3) + " " +
-         wall_.surface.units + " RMS";
+  return count(found.pairs.size(), "fiducial") + ", fit " + rounded(knownSurface().rms, 3) + " " + wall_.surface.units +
+         " RMS";
 }
 
 /// Fiducials whose pixels a person gave need no photograph; markers are looked for in one.
@@ -242,9 +260,9 @@ Procedure::FiducialSearch Procedure::findFiducials(const CameraMapping& camera) 
     tookPhotographs_ = true;
     const auto shot = source.fiducials();
     search.photo = shot.name;
-    if (shot.photo.size() != calibration_.camera->size) {
+    if (shot.photo.size() != knownCamera().size) {
       throw ProcedureError(shot.name + ": " + sizeText(shot.photo.size()) +
-                           " pixels, but the camera was calibrated at " + sizeText(calibration_.camera->size));
+                           " pixels, but the camera was calibrated at " + sizeText(knownCamera().size));
     }
     markers = findMarkers(shot.photo, camera);
   }
@@ -263,7 +281,7 @@ Procedure::FiducialSearch Procedure::findFiducials(const CameraMapping& camera) 
 std::string Procedure::runProjectors(const ProcedureOptions& options) {
   auto& source = photographs("projectors");
   tookPhotographs_ = true;
-  const CameraMapping camera(*calibration_.camera);
+  const CameraMapping camera(knownCamera());
   std::vector<std::pair<const ProjectorConfig*, std::future<DecodedBlobs>>> decoding;
   const auto wanted = [&](const std::string& name) {
     return !options.skip.contains(name) && (options.only.empty() || options.only.contains(name));
@@ -287,7 +305,7 @@ std::string Procedure::runProjectors(const ProcedureOptions& options) {
     for (const Pattern pattern : allPatterns()) {
       auto& photo = (*photos)[static_cast<std::size_t>(pattern)];
       photo = source.pattern(config.name, layout, pattern);
-      if (photo.size() != calibration_.camera->size) {
+      if (photo.size() != knownCamera().size) {
         throw ProcedureError(patternPath(config.name, pattern).string() + ": not of the size that the camera was " +
                              "calibrated at");
       }
@@ -332,7 +350,7 @@ void Procedure::addProjector(const ProjectorConfig& config, const DecodedBlobs& 
     progress_.warn("projector " + config.name + ": " + std::to_string(found) + " of " + std::to_string(kBlobCount) +
                    " blobs found; " + decoded.hint);
   }
-  const Homography wallFromCamera(calibration_.surface->wallFromCamera);
+  const Homography wallFromCamera(knownSurface().wallFromCamera);
   const BlobLayout layout(config.resolution);
   ProjectorCalibration projector{.name = config.name, .resolution = config.resolution};
   if (const auto nudge = nudges_.find(config.name); nudge != nudges_.end()) projector.nudge = nudge->second;
@@ -360,7 +378,7 @@ void Procedure::reportFailure(const std::string& name, const std::string& proble
 std::string Procedure::keepOrFindDisplay(const ProcedureOptions& options) {
   std::vector<Outline> outlines;
   for (const auto& projector : calibration_.projectors) outlines.push_back(footprint(ProjectorMapping(projector)));
-  if (isLit(*calibration_.display, outlines)) return "desktop stays " + sizeText(calibration_.display->resolution);
+  if (isLit(knownDisplay(), outlines)) return "desktop stays " + sizeText(knownDisplay().resolution);
   progress_.warn("the old display is not wholly lit any more; a new one was found");
   return runMesh(options);
 }
@@ -382,7 +400,7 @@ std::string Procedure::runMesh(const ProcedureOptions&) {
   } catch (const GeometryError& error) {
     throw ProcedureError(std::string("mesh: ") + error.what());
   }
-  return "desktop " + sizeText(calibration_.display->resolution);
+  return "desktop " + sizeText(knownDisplay().resolution);
 }
 
 std::string Procedure::runBlend(const ProcedureOptions&) {
@@ -406,8 +424,10 @@ std::string Procedure::runGamma(const ProcedureOptions&) {
   for (auto& projector : calibration_.projectors) {
     projector.response.reset();
     const auto config = std::ranges::find(wall_.projectors, projector.name, &ProjectorConfig::name);
-    if (config == wall_.projectors.end() || !config->gamma) continue;
-    const std::string file = (folder_ / *config->gamma).string();
+    if (config == wall_.projectors.end()) continue;
+    const auto& gamma = config->gamma;
+    if (!gamma) continue;
+    const std::string file = (folder_ / *gamma).string();
     projector.response = "calibration/" + projector.name + "-response.csv";
     responses_[*projector.response] = formatReadings(parseReadings(readStoreFile(file), file));
     ++measured;

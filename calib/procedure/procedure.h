@@ -59,6 +59,10 @@ class Procedure {
   [[nodiscard]] std::string measureStamp(const std::string& kind) const;
   [[nodiscard]] bool stale(const std::string& step) const;
   [[nodiscard]] Photographs& photographs(const std::string& step) const;
+  /// What earlier steps measured; throw ProcedureError when they have not run.
+  [[nodiscard]] const CameraIntrinsics& knownCamera() const;
+  [[nodiscard]] const SurfaceFit& knownSurface() const;
+  [[nodiscard]] const Display& knownDisplay() const;
   void requireEarlier(const std::string& step) const;
 
   std::string runCamera(const ProcedureOptions& options);

@@ -27,11 +27,10 @@
 #include "calib/store/yaml_reader.h"
 #include "devices/image/atomic_file.h"
 
+namespace pixelflex::calib {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace pixelflex;
-using namespace pixelflex::calib;
 
 struct Arguments {
   std::string wall;
@@ -166,16 +165,17 @@ void calibrate(const Arguments& arguments) {
 }
 
 }  // namespace
+}  // namespace pixelflex::calib
 
 int main(int argc, char** argv) {
-  Arguments arguments;
+  pixelflex::calib::Arguments arguments;
   CLI::App app{
       "Measures the wall: camera, surface, projectors, mesh, blend, gamma. Without STEP: every step that is stale.",
       "pixelflex-calibrate"};
   app.set_version_flag("--version", PIXELFLEX_VERSION);
   app.add_option("WALL", arguments.wall, "the wall's folder")->required();
   app.add_option("STEP", arguments.steps, "only these: camera surface projectors mesh blend gamma")
-      ->check(CLI::IsMember(stepNames()));
+      ->check(CLI::IsMember(pixelflex::calib::stepNames()));
   auto* patterns =
       app.add_option("--patterns", arguments.patterns, "only write what each projector must show into this folder");
   app.add_option("--photos", arguments.photos, "work from the photographs in this folder")->excludes(patterns);
@@ -194,7 +194,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
-    calibrate(arguments);
+    pixelflex::calib::calibrate(arguments);
     return 0;
   } catch (const std::exception& error) {
     std::fflush(stdout);

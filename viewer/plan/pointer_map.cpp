@@ -8,7 +8,7 @@
 namespace pixelflex::viewer {
 
 PointerMap::PointerMap(const WallPlan& wall, devices::Size desktop) : desktop_(desktop) {
-  calib::Display display = *wall.calibration().display;
+  calib::Display display = wall.display();
   display.resolution = desktop;
   desktopFromWall_ = calib::desktopFromWall(display);
   for (const auto* projector : wall.projectors()) {

@@ -73,6 +73,7 @@ WallPlan::WallPlan(const std::filesystem::path& folder, calib::Wall wall, calib:
   if (!calibration_.display || calibration_.projectors.empty()) {
     throw PlanError(folder.string() + ": the wall is not fully calibrated: run pixelflex calibrate " + folder.string());
   }
+  display_ = *calibration_.display;
   for (const auto& name : only) {
     if (calibration_.find(name) == nullptr) {
       throw PlanError(folder.string() + ": no calibrated projector is called " + name);
@@ -111,7 +112,7 @@ OutputPlan WallPlan::outputFor(std::size_t index, devices::Size desktop) const {
       .transfer = wall_.transfer == calib::Transfer::kSrgb ? DesktopTransfer::kSrgb : DesktopTransfer::kLinear,
       .exactAt = projector.flatAt};
   if (projector.flatAt) return plan;
-  calib::Display display = *calibration_.display;
+  calib::Display display = display_;
   display.resolution = desktop;
   const calib::ProjectorMapping mapping(projector);
   const TileLayout layout(desktop);

@@ -27,10 +27,12 @@ class WallPlan {
            const std::vector<std::string>& only);
 
   /// The desktop that the wall was calibrated for.
-  [[nodiscard]] devices::Size desktop() const { return calibration_.display->resolution; }
+  [[nodiscard]] devices::Size desktop() const { return display_.resolution; }
   [[nodiscard]] const std::vector<const calib::ProjectorCalibration*>& projectors() const { return projectors_; }
   [[nodiscard]] const calib::Wall& wall() const { return wall_; }
   [[nodiscard]] const calib::Calibration& calibration() const { return calibration_; }
+  /// The display rectangle and the desktop that it was calibrated for.
+  [[nodiscard]] const calib::Display& display() const { return display_; }
 
   /// One plan for each of projectors(), for a desktop of this size: it fills the display rectangle whatever its size.
   /// Flat screens show their part one to one. Uses two threads.
@@ -41,6 +43,7 @@ class WallPlan {
 
   calib::Wall wall_;
   calib::Calibration calibration_;
+  calib::Display display_;
   std::vector<const calib::ProjectorCalibration*> projectors_;
   std::vector<devices::Image16> alpha_;
   std::vector<std::array<std::vector<float>, 3>> inverseResponse_;

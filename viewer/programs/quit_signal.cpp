@@ -23,7 +23,7 @@ sigset_t quitSignals() {
 QuitSignal::QuitSignal(std::function<void()> onQuit) : onQuit_(std::move(onQuit)) {
   const sigset_t signals = quitSignals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  // The destructor wakes the thread with SIGTERM as well, so it need not poll.
+  // The destructor wakes the thread with SIGINT as well, so it need not poll.
   thread_ = std::jthread([this](const std::stop_token& stop) {
     const sigset_t waited = quitSignals();
     int signal = 0;
@@ -35,7 +35,7 @@ QuitSignal::QuitSignal(std::function<void()> onQuit) : onQuit_(std::move(onQuit)
 
 QuitSignal::~QuitSignal() {
   thread_.request_stop();
-  pthread_kill(thread_.native_handle(), SIGTERM);
+  pthread_kill(thread_.native_handle(), SIGINT);
   thread_.join();
 }
 

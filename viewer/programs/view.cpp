@@ -12,10 +12,8 @@
 #include "viewer/programs/view_options.h"
 #include "viewer/programs/windows.h"
 
+namespace pixelflex::viewer {
 namespace {
-
-using namespace pixelflex;
-using namespace pixelflex::viewer;
 
 int view(const ViewOptions& options) {
   const WallPlan wall(options.wall, calib::loadWall(options.wall), calib::loadCalibration(options.wall),
@@ -24,9 +22,10 @@ int view(const ViewOptions& options) {
 }
 
 }  // namespace
+}  // namespace pixelflex::viewer
 
 int main(int argc, char** argv) {
-  ViewOptions options;
+  pixelflex::viewer::ViewOptions options;
   CLI::App app{"Shows a VNC server's desktop on the wall. SERVER is HOST:DISPLAY, HOST::PORT, [V6]::PORT or unix:PATH.",
                "pixelflex-view"};
   app.set_version_flag("--version", PIXELFLEX_VERSION);
@@ -47,7 +46,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     options.settle = std::chrono::milliseconds(settle);
-    options.server = parseServerAddress(server);
+    options.server = pixelflex::viewer::parseServerAddress(server);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   } catch (const std::invalid_argument& error) {
@@ -55,7 +54,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    return view(options);
+    return pixelflex::viewer::view(options);
   } catch (const std::exception& error) {
     std::fflush(stdout);
     fmt::print(stderr, "pixelflex-view: {}\n", error.what());

@@ -31,7 +31,7 @@ SessionOptions sessionOptions(const ViewOptions& options) {
 }  // namespace
 
 WallView::WallView(const ViewOptions& options, const WallPlan& wall, devices::GlContext& context,
-                   std::function<void()> wake)
+                   const std::function<void()>& wake)
     : wall_(wall), renderer_(context), belt_(wake), session_(sessionOptions(options), belt_, wake) {
   // What a screenshot shows is the desktop, as a screenshot taken on the server does.
   if (options.screenshot) renderer_.showCursor(false);

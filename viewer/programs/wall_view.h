@@ -31,7 +31,8 @@ class WallView {
   using Clock = std::chrono::steady_clock;
 
   /// `wake` is called from any thread when there is something to do; both references must outlive this.
-  WallView(const ViewOptions& options, const WallPlan& wall, devices::GlContext& context, std::function<void()> wake);
+  WallView(const ViewOptions& options, const WallPlan& wall, devices::GlContext& context,
+           const std::function<void()>& wake);
 
   struct Step {
     std::vector<std::size_t> drawn;  // outputs whose frame changed
