@@ -86,7 +86,7 @@ bool FolderPhotographs::hasProjector(const std::string& projector) {
   return fs::is_directory(folder_ / projector);
 }
 
-devices::Image8 FolderPhotographs::pattern(const std::string& projector, const BlobLayout&, Pattern pattern) {
+devices::Image8 FolderPhotographs::pattern(const std::string& projector, const ProjectedPattern& pattern) {
   return read(find(patternPath(projector, pattern)));
 }
 

@@ -21,8 +21,7 @@ class FolderPhotographs : public Photographs {
   [[nodiscard]] int checkerboardCount() const override { return static_cast<int>(checkerboards_.size()); }
   [[nodiscard]] Named fiducials() override;
   [[nodiscard]] bool hasProjector(const std::string& projector) override;
-  [[nodiscard]] devices::Image8 pattern(const std::string& projector, const BlobLayout& layout,
-                                        Pattern pattern) override;
+  [[nodiscard]] devices::Image8 pattern(const std::string& projector, const ProjectedPattern& pattern) override;
   [[nodiscard]] std::string stamp(const std::string& kind) const override;
   void keep() override;
 

@@ -79,14 +79,14 @@ Photographs::Named LivePhotographs::fiducials() {
   return {(captures_ / "fiducials.png").string(), shoot("fiducials.png")};
 }
 
-devices::Image8 LivePhotographs::pattern(const std::string& projector, const BlobLayout& layout, Pattern pattern) {
+devices::Image8 LivePhotographs::pattern(const std::string& projector, const ProjectedPattern& pattern) {
   devices::Projector* target = find(projector);
   if (target == nullptr) throw CaptureError("projector " + projector + " is not connected");
   if (!dark_ && !person_.arrange(devices::Scene::kDark, 0)) throw CaptureError("the room could not be darkened");
   dark_ = true;
   if (lit_ != target) blankAll();
   lit_ = target;
-  target->show(renderPattern(pattern, layout));
+  target->show(pattern.render());
   return shoot(patternPath(projector, pattern).string() + ".png");
 }
 

@@ -56,8 +56,7 @@ class LivePhotographs : public Photographs {
   [[nodiscard]] int checkerboardCount() const override { return checkerboardCount_; }
   [[nodiscard]] Named fiducials() override;
   [[nodiscard]] bool hasProjector(const std::string& projector) override { return find(projector) != nullptr; }
-  [[nodiscard]] devices::Image8 pattern(const std::string& projector, const BlobLayout& layout,
-                                        Pattern pattern) override;
+  [[nodiscard]] devices::Image8 pattern(const std::string& projector, const ProjectedPattern& pattern) override;
   [[nodiscard]] std::string stamp(const std::string&) const override { return identity_; }
   void keep() override { writer_.finish(); }
 

@@ -1,10 +1,17 @@
 #include "calib/capture/photographs.h"
 
+#include "calib/patterns/blob_pattern.h"
 #include "devices/image/atomic_file.h"
 #include "devices/image/png_file.h"
 
 namespace pixelflex::calib {
 namespace {
+
+std::vector<ProjectedPattern> patternsFor(devices::Size size) {
+  std::vector<ProjectedPattern> patterns;
+  for (const Pattern pattern : allPatterns()) patterns.push_back(projected(pattern, BlobLayout(size)));
+  return patterns;
+}
 
 std::string instructions(const std::vector<std::pair<std::string, devices::Size>>& projectors) {
   std::string text =
@@ -25,8 +32,8 @@ std::string instructions(const std::vector<std::pair<std::string, devices::Size>
       "   projector pixel, all other projectors black, and save the photograph under the same name:\n\n";
   for (const auto& [name, size] : projectors) {
     text += "   " + name + " (" + std::to_string(size.width) + "x" + std::to_string(size.height) + ")\n";
-    for (const Pattern pattern : allPatterns()) {
-      text += "     " + patternPath(name, pattern).string() + ".png    " + patternDescription(pattern) + "\n";
+    for (const auto& pattern : patternsFor(size)) {
+      text += "     " + patternPath(name, pattern).string() + ".png    " + pattern.description + "\n";
     }
   }
   return text + "\nThen run: pixelflex calibrate WALL --photos photos/\n";
@@ -34,16 +41,15 @@ std::string instructions(const std::vector<std::pair<std::string, devices::Size>
 
 }  // namespace
 
-std::filesystem::path patternPath(const std::string& projector, Pattern pattern) {
-  return std::filesystem::path(projector) / patternName(pattern);
+std::filesystem::path patternPath(const std::string& projector, const ProjectedPattern& pattern) {
+  return std::filesystem::path(projector) / pattern.name;
 }
 
 void writePatterns(const std::filesystem::path& folder,
                    const std::vector<std::pair<std::string, devices::Size>>& projectors) {
   for (const auto& [name, size] : projectors) {
-    const BlobLayout layout(size);
-    for (const Pattern pattern : allPatterns()) {
-      writePng(folder / (patternPath(name, pattern).string() + ".png"), renderPattern(pattern, layout));
+    for (const auto& pattern : patternsFor(size)) {
+      writePng(folder / (patternPath(name, pattern).string() + ".png"), pattern.render());
     }
   }
   devices::writeFileAtomically(folder / "README.txt", instructions(projectors));

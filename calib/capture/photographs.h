@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/patterns/blob_decoder.h"
+#include "calib/patterns/projected_pattern.h"
 #include "calib/store/calibration.h"
 #include "devices/image/image.h"
 
@@ -26,6 +26,11 @@ class Photographs {
   Photographs(const Photographs&) = delete;
   Photographs& operator=(const Photographs&) = delete;
 
+  /// The places that the camera stands at, one after the other; the fiducials and patterns asked for are seen from the
+  /// place chosen last (the first, to begin with). The camera and its lens are the same everywhere.
+  [[nodiscard]] virtual int placeCount() const { return 1; }
+  virtual void choosePlace(int /*place*/) {}
+
   /// Known intrinsics instead of checkerboard photographs.
   [[nodiscard]] virtual std::optional<CameraIntrinsics> knownCamera() { return std::nullopt; }
 
@@ -44,8 +49,7 @@ class Photographs {
   /// Whether anything was photographed of this projector at all.
   [[nodiscard]] virtual bool hasProjector(const std::string& projector) = 0;
   /// One pattern on this projector, every other one black.
-  [[nodiscard]] virtual devices::Image8 pattern(const std::string& projector, const BlobLayout& layout,
-                                                Pattern pattern) = 0;
+  [[nodiscard]] virtual devices::Image8 pattern(const std::string& projector, const ProjectedPattern& pattern) = 0;
 
   /// A short text that changes when the photographs of a kind would: "checkerboard", "fiducials" or "patterns".
   [[nodiscard]] virtual std::string stamp(const std::string& kind) const = 0;
@@ -55,7 +59,7 @@ class Photographs {
 };
 
 /// Relative path of a pattern's photograph without its ending: "p1/bit3".
-[[nodiscard]] std::filesystem::path patternPath(const std::string& projector, Pattern pattern);
+[[nodiscard]] std::filesystem::path patternPath(const std::string& projector, const ProjectedPattern& pattern);
 
 /// What each projector must show, and README.txt for the person who photographs it (contract: "Photographs: one rule").
 void writePatterns(const std::filesystem::path& folder,

@@ -94,4 +94,9 @@ devices::Image8 renderPattern(Pattern pattern, const BlobLayout& layout) {
   return image;
 }
 
+ProjectedPattern projected(Pattern pattern, const BlobLayout& layout) {
+  return {patternName(pattern), patternDescription(pattern),
+          [pattern, layout] { return renderPattern(pattern, layout); }};
+}
+
 }  // namespace pixelflex::calib

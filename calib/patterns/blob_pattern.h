@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/patterns/projected_pattern.h"
 #include "devices/image/image.h"
 
 namespace pixelflex::calib {
@@ -42,5 +43,7 @@ inline constexpr int kPatternCount = 3 + kCodeBits;
 /// One channel of device codes. Blobs are drawn so that the *light* of a projector with gamma 2.2 is Gaussian (any
 /// other power law only changes their width) and peak at 90 % so that nothing saturates.
 [[nodiscard]] devices::Image8 renderPattern(Pattern pattern, const BlobLayout& layout);
+
+[[nodiscard]] ProjectedPattern projected(Pattern pattern, const BlobLayout& layout);
 
 }  // namespace pixelflex::calib

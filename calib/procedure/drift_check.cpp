@@ -37,9 +37,10 @@ std::vector<ProjectorDrift> checkDrift(const Calibration& calibration, Photograp
       continue;
     }
     const BlobLayout layout(projector.resolution);
-    const auto photo = photographs.pattern(projector.name, layout, Pattern::kBlobs);
+    const ProjectedPattern pattern = projected(Pattern::kBlobs, layout);
+    const auto photo = photographs.pattern(projector.name, pattern);
     if (photo.size() != calibration.camera->size) {
-      throw ProcedureError(patternPath(projector.name, Pattern::kBlobs).string() +
+      throw ProcedureError(patternPath(projector.name, pattern).string() +
                            ": not of the size that the camera was calibrated at");
     }
     const ProjectorMapping mapping(projector.model, projector.resolution);

@@ -304,10 +304,10 @@ std::string Procedure::runProjectors(const ProcedureOptions& options) {
     int shown = 0;
     for (const Pattern pattern : allPatterns()) {
       auto& photo = (*photos)[static_cast<std::size_t>(pattern)];
-      photo = source.pattern(config.name, layout, pattern);
+      photo = source.pattern(config.name, projected(pattern, layout));
       if (photo.size() != knownCamera().size) {
-        throw ProcedureError(patternPath(config.name, pattern).string() + ": not of the size that the camera was " +
-                             "calibrated at");
+        throw ProcedureError(patternPath(config.name, projected(pattern, layout)).string() +
+                             ": not of the size that the camera was " + "calibrated at");
       }
       progress_.advance(done - kPatternCount + ++shown, total, config.name + "/" + patternName(pattern));
     }
@@ -334,7 +334,7 @@ void Procedure::addProjector(const ProjectorConfig& config, const DecodedBlobs& 
   if (decoded.saturatedShare > kMostSaturated) {
     // Spots may still be found, but where white is clipped their light cannot be divided by it.
     reportFailure(config.name,
-                  patternPath(config.name, Pattern::kWhite).string() +
+                  patternPath(config.name, projected(Pattern::kWhite, BlobLayout(config.resolution))).string() +
                       ".png is over-exposed: " + rounded(100 * decoded.saturatedShare, 0) +
                       " % of the lit area is saturated; shorten the exposure until white stays below 85 %",
                   options);

@@ -9,6 +9,7 @@
 
 #include "calib/capture/photographs.h"
 #include "calib/estimate/collineation.h"
+#include "calib/patterns/blob_decoder.h"
 #include "calib/procedure/progress.h"
 #include "calib/store/store.h"
 #include "devices/image/image.h"

@@ -25,10 +25,22 @@ struct CameraIntrinsics {
   bool operator==(const CameraIntrinsics&) const = default;
 };
 
+/// How a view (a camera's or a projector's) sees a screen that is bent about a vertical axis. Wall x runs along the
+/// arc. With t = (x - apex) / radius the wall point (x, y) lies at X = apex + radius sin t, Y = y and
+/// Z = radius (cos t - 1) in a frame whose plane Z = 0 touches the screen at the apex, and is seen at
+/// H (X, Y, 1) + depth Z, where H is the view's homography of that plane.
+struct Bend {
+  double radius = 0;  // wall units; positive: hollow towards the audience, negative: bulging
+  double apex = 0;    // wall x
+  std::array<double, 3> depth{};
+  bool operator==(const Bend&) const = default;
+};
+
 /// The collineation C of the report: undistorted camera pixel to wall (equation 6).
 struct SurfaceFit {
-  std::array<double, 9> wallFromCamera{1, 0, 0, 0, 1, 0, 0, 0, 1};  // row major
+  std::array<double, 9> wallFromCamera{1, 0, 0, 0, 1, 0, 0, 0, 1};  // row major; of the apex's plane on a bent screen
   double rms = 0;                                                   // wall units, over the fiducials
+  std::optional<Bend> bend;                                         // goes with the inverse of wallFromCamera
   bool operator==(const SurfaceFit&) const = default;
 };
 
@@ -45,22 +57,38 @@ struct Sample {
   bool operator==(const Sample&) const = default;
 };
 
+/// What the lens model leaves, as a smooth correction in projector pixels: a uniform cubic B-spline of columns x rows
+/// cells over the frame. A pixel p of the lens model becomes p + spline(p); outside the frame the correction is that of
+/// the nearest point of its border.
+struct ResidualSpline {
+  int columns = 0;
+  int rows = 0;
+  std::vector<glm::dvec2> control;  // (columns + 3) x (rows + 3), row by row
+  bool operator==(const ResidualSpline&) const = default;
+};
+
 /// Homography and Brown lens (calibration reference 1.6). A wall point w goes to h = projectorFromWall * w (normalised
-/// plane), through Brown's polynomial about the lens centre, to pixel = centre + scale * distorted.
+/// plane), through Brown's polynomial about the lens centre, to pixel = centre + scale * distorted, and is then moved
+/// by the residual spline where there is one.
 struct ProjectorModel {
   std::array<double, 9> projectorFromWall{1, 0, 0, 0, 1, 0, 0, 0, 1};  // row major, into normalised coordinates
   glm::dvec2 centre{0, 0};                                             // projector pixels
   double scale = 1;                                                    // projector pixels per normalised unit
   std::array<double, 3> radial{};
   std::array<double, 2> tangential{};
+  std::optional<Bend> bend;  // goes with projectorFromWall
+  std::optional<ResidualSpline> residual;
   bool operator==(const ProjectorModel&) const = default;
 };
 
 /// How well the model explains the samples it was fitted to, in projector pixels.
 struct FitQuality {
   double rms = 0, p95 = 0, maximum = 0;
-  int found = 0;  // blobs located and identified
+  int found = 0;  // samples located and identified
   int shown = 0;
+  double heldOut = 0;      // rms of samples left out of the fit (five folds): what to expect between samples
+  double deviation = 0;    // standard deviation of the model from the fit's covariance, rms over the frame
+  double cameraScale = 0;  // camera pixels per projector pixel; 0: not known
   bool operator==(const FitQuality&) const = default;
 };
 
@@ -81,7 +109,8 @@ struct ProjectorCalibration {
 /// calibration.yaml: what was measured. Parts are absent until their step has run.
 struct Calibration {
   std::optional<CameraIntrinsics> camera;
-  std::optional<SurfaceFit> surface;
+  std::optional<SurfaceFit> surface;  // as seen from the camera's first place
+  std::vector<SurfaceFit> places;     // from its further places, where one photograph did not hold the wall
   std::optional<Display> display;
   std::vector<ProjectorCalibration> projectors;
   std::map<std::string, std::string> steps;  // step name to a fingerprint of what it was computed from

@@ -45,8 +45,22 @@ CameraIntrinsics readCamera(const Node& node) {
   return camera;
 }
 
+std::optional<Bend> readBend(const Node& node) {
+  if (!node.defined()) return std::nullopt;
+  Bend bend;
+  bend.radius = node.required("radius").number(-kHuge, kHuge);
+  if (!(std::abs(bend.radius) >= kTiny)) node.problem("a radius of nothing");
+  bend.apex = node.required("apex").number(-kMaxCoordinate, kMaxCoordinate);
+  bend.depth = readArray<3>(node.required("depth"));
+  node.refuseUnknownKeys();
+  return bend;
+}
+
 SurfaceFit readSurface(const Node& node) {
-  SurfaceFit surface{readCollineation(node.required("wall_from_camera")), node.required("rms").number(0, kHuge)};
+  SurfaceFit surface;
+  surface.wallFromCamera = readCollineation(node.required("wall_from_camera"));
+  surface.bend = readBend(node.optional("bend"));
+  surface.rms = node.required("rms").number(0, kHuge);
   node.refuseUnknownKeys();
   return surface;
 }
@@ -69,6 +83,23 @@ Sample readSample(const Node& node) {
   return {{values[0], values[1]}, {values[2], values[3]}};
 }
 
+ResidualSpline readResidual(const Node& node) {
+  constexpr int kMostCells = 256;
+  ResidualSpline spline;
+  spline.columns = node.required("columns").integer(1, kMostCells);
+  spline.rows = node.required("rows").integer(1, kMostCells);
+  const auto count = static_cast<std::size_t>(spline.columns + 3) * static_cast<std::size_t>(spline.rows + 3);
+  for (const Node& point : node.required("control").elements(0, kMaxSamples)) {
+    spline.control.push_back(readPoint(point));
+  }
+  if (spline.control.size() != count) {
+    node.problem("expected " + std::to_string(count) + " control points, found " +
+                 std::to_string(spline.control.size()));
+  }
+  node.refuseUnknownKeys();
+  return spline;
+}
+
 ProjectorModel readModel(const Node& node) {
   ProjectorModel model;
   model.projectorFromWall = readCollineation(node.required("projector_from_wall"));
@@ -76,6 +107,8 @@ ProjectorModel readModel(const Node& node) {
   model.scale = node.required("scale").number(kTiny, kHuge);
   model.radial = readArray<3>(node.required("radial"));
   model.tangential = readArray<2>(node.required("tangential"));
+  model.bend = readBend(node.optional("bend"));
+  if (const Node residual = node.optional("residual"); residual.defined()) model.residual = readResidual(residual);
   node.refuseUnknownKeys();
   return model;
 }
@@ -85,6 +118,13 @@ FitQuality readQuality(const Node& node) {
   quality.rms = node.required("rms_px").number(0, kHuge);
   quality.p95 = node.required("p95_px").number(0, kHuge);
   quality.maximum = node.required("max_px").number(0, kHuge);
+  const auto optionalNumber = [&](const char* key) {
+    const Node value = node.optional(key);
+    return value.defined() ? value.number(0, kHuge) : 0;
+  };
+  quality.heldOut = optionalNumber("held_out_px");
+  quality.deviation = optionalNumber("deviation_px");
+  quality.cameraScale = optionalNumber("camera_scale");
   quality.found = node.required("found").integer(0, kMaxSamples);
   quality.shown = node.required("shown").integer(0, kMaxSamples);
   if (quality.found > quality.shown) node.problem("more found than shown");
@@ -119,6 +159,9 @@ Calibration readCalibration(const Node& root) {
   Calibration calibration;
   if (const Node node = root.optional("camera"); node.defined()) calibration.camera = readCamera(node);
   if (const Node node = root.optional("surface"); node.defined()) calibration.surface = readSurface(node);
+  if (const Node places = root.optional("places"); places.defined()) {
+    for (const Node& node : places.elements(0, kMaxProjectors)) calibration.places.push_back(readSurface(node));
+  }
   if (const Node node = root.optional("display"); node.defined()) calibration.display = readDisplay(node);
   const Node projectors = root.required("projectors");
   for (const Node& node : projectors.elements(0, kMaxProjectors)) {

@@ -17,9 +17,31 @@ std::string cameraText(const CameraIntrinsics& camera) {
       camera.photos);
 }
 
-std::string surfaceText(const SurfaceFit& surface) {
-  return fmt::format("surface:\n  wall_from_camera: {}\n  rms: {}\n", yamlList(surface.wallFromCamera),
-                     yamlNumber(surface.rms));
+std::string bendText(const Bend& bend) {
+  return fmt::format("{{radius: {}, apex: {}, depth: {}}}", yamlNumber(bend.radius), yamlNumber(bend.apex),
+                     yamlList(bend.depth));
+}
+
+std::string residualText(const ResidualSpline& spline) {
+  std::string points;
+  for (const auto& point : spline.control) {
+    points += (points.empty() ? "" : ", ") + yamlList({point.x, point.y});
+  }
+  return fmt::format("      residual: {{columns: {}, rows: {}, control: [{}]}}\n", spline.columns, spline.rows, points);
+}
+
+/// Lines of a block mapping at this indentation.
+std::string surfaceText(const SurfaceFit& surface, const std::string& indent) {
+  std::string text = fmt::format("wall_from_camera: {}\n{}rms: {}\n", yamlList(surface.wallFromCamera), indent,
+                                 yamlNumber(surface.rms));
+  return surface.bend ? text + fmt::format("{}bend: {}\n", indent, bendText(*surface.bend)) : text;
+}
+
+std::string placesText(const std::vector<SurfaceFit>& places) {
+  if (places.empty()) return "";
+  std::string text = "places:\n";
+  for (const auto& place : places) text += "  - " + surfaceText(place, "    ");
+  return text;
 }
 
 std::string displayText(const Display& display) {
@@ -29,17 +51,26 @@ std::string displayText(const Display& display) {
 }
 
 std::string modelText(const ProjectorModel& model) {
-  return fmt::format(
+  std::string text = fmt::format(
       "    model:\n      projector_from_wall: {}\n      centre: {}\n      scale: {}\n      radial: {}\n"
       "      tangential: {}\n",
       yamlList(model.projectorFromWall), yamlList({model.centre.x, model.centre.y}), yamlNumber(model.scale),
       yamlList(model.radial), yamlList(model.tangential));
+  if (model.bend) text += fmt::format("      bend: {}\n", bendText(*model.bend));
+  return model.residual ? text + residualText(*model.residual) : text;
 }
 
 std::string qualityText(const FitQuality& quality) {
-  return fmt::format("    quality: {{rms_px: {}, p95_px: {}, max_px: {}, found: {}, shown: {}}}\n",
-                     yamlNumber(quality.rms), yamlNumber(quality.p95), yamlNumber(quality.maximum), quality.found,
-                     quality.shown);
+  std::string text =
+      fmt::format("    quality: {{rms_px: {}, p95_px: {}, max_px: {}, found: {}, shown: {}", yamlNumber(quality.rms),
+                  yamlNumber(quality.p95), yamlNumber(quality.maximum), quality.found, quality.shown);
+  const auto add = [&text](const char* key, double value) {
+    if (value > 0) text += fmt::format(", {}: {}", key, yamlNumber(value));
+  };
+  add("held_out_px", quality.heldOut);
+  add("deviation_px", quality.deviation);
+  add("camera_scale", quality.cameraScale);
+  return text + "}\n";
 }
 
 std::string samplesText(const std::vector<Sample>& samples) {
@@ -69,7 +100,8 @@ std::string formatCalibration(const Calibration& calibration) {
       "format: pixelflex-calibration\nversion: {}\n",
       kCalibrationVersion);
   if (calibration.camera) text += cameraText(*calibration.camera);
-  if (calibration.surface) text += surfaceText(*calibration.surface);
+  if (calibration.surface) text += "surface:\n  " + surfaceText(*calibration.surface, "  ");
+  text += placesText(calibration.places);
   if (calibration.display) text += displayText(*calibration.display);
   text += calibration.projectors.empty() ? "projectors: []\n" : "projectors:\n";
   for (const auto& projector : calibration.projectors) text += projectorText(projector);

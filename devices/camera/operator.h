@@ -20,6 +20,10 @@ class Operator {
   /// Returns when the scene is ready. For kCheckerboard `index` counts the poses from 0. Returns false when the person
   /// has no more to show (enough checkerboard poses).
   [[nodiscard]] virtual bool arrange(Scene scene, int index) = 0;
+
+  /// Returns when the camera stands at its next place, counted from 0: a wall that one photograph cannot hold is
+  /// photographed from several. False: there is no such place.
+  [[nodiscard]] virtual bool placeCamera(int place) { return place == 0; }
 };
 
 }  // namespace pixelflex::devices

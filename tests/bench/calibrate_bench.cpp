@@ -13,6 +13,7 @@
 #include <string>
 
 #include "calib/capture/folder_photographs.h"
+#include "calib/patterns/blob_pattern.h"
 #include "calib/simulate/rig_generator.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support_calibration/calibrated_rig.h"

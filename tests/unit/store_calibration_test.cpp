@@ -59,6 +59,27 @@ TEST(StoreCalibration, MigratesVersionZero) {
   EXPECT_EQ(parseCalibration(dataFile("calibration-v0.yaml"), "calibration.yaml"), exampleCalibration());
 }
 
+TEST(StoreCalibration, RoundTripsBentScreensResidualsAndPlaces) {
+  calib::Calibration calibration = exampleCalibration();
+  calibration.surface->bend = calib::Bend{3000.5, -17.25, {0.5, -0.25, 1e-5}};
+  calibration.places = {*calibration.surface, {{1, 0, 2, 0, 1, 3, 0, 0, 1}, 0.125, {}}};
+  auto& p1 = calibration.projectors[0];
+  p1.model.bend = calib::Bend{-2500, 12, {1e-4, 2, 3}};
+  p1.model.residual = calib::ResidualSpline{1, 2, std::vector<glm::dvec2>(20, {0.0625, -0.03})};
+  p1.quality.heldOut = 0.031;
+  p1.quality.deviation = 0.007;
+  p1.quality.cameraScale = 0.41;
+  EXPECT_EQ(parseCalibration(formatCalibration(calibration), "calibration.yaml"), calibration);
+}
+
+TEST(StoreCalibration, RefusesASplineWithTheWrongNumberOfControlPoints) {
+  calib::Calibration calibration = exampleCalibration();
+  calibration.projectors[0].model.residual = calib::ResidualSpline{1, 1, std::vector<glm::dvec2>(15)};
+  EXPECT_THAT(
+      [&] { (void)parseCalibration(formatCalibration(calibration), "calibration.yaml"); },
+      ::testing::ThrowsMessage<calib::StoreError>(::testing::HasSubstr("expected 16 control points, found 15")));
+}
+
 TEST(StoreCalibration, RoundTripsWhatHasNotBeenMeasuredYet) {
   const calib::Calibration nothing;
   EXPECT_EQ(parseCalibration(formatCalibration(nothing), "calibration.yaml"), nothing);

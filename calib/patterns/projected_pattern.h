@@ -1,0 +1,17 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "devices/image/image.h"
+
+namespace pixelflex::calib {
+
+/// A picture that a projector shows while it is photographed.
+struct ProjectedPattern {
+  std::string name;                         // of its file, without the ending
+  std::string description;                  // what a person sees in it
+  std::function<devices::Image8()> render;  // of the projector's resolution, one channel of device codes
+};
+
+}  // namespace pixelflex::calib
