@@ -10,9 +10,9 @@
 namespace pixelflex::calib {
 
 ProjectorMapping::ProjectorMapping(const ProjectorModel& model, devices::Size resolution)
-    : projectorFromWall_(model.projectorFromWall),
-      wallFromNormalised_(projectorFromWall_.inverse()),
+    : view_(Homography(model.projectorFromWall), model.bend),
       lens_(model.radial, model.tangential),
+      residual_(model.residual ? ResidualMap(*model.residual, resolution) : ResidualMap()),
       centre_(model.centre),
       scale_(model.scale),
       resolution_(resolution),
@@ -21,14 +21,14 @@ ProjectorMapping::ProjectorMapping(const ProjectorModel& model, devices::Size re
   const double w = resolution.width;
   const double h = resolution.height;
   for (const glm::dvec2 corner : std::array<glm::dvec2, 5>{{{0, 0}, {w, 0}, {w, h}, {0, h}, {w / 2, h / 2}}}) {
-    const glm::dvec2 distorted = (corner - centre_) / scale_;
-    const glm::dvec2 ideal = lens_.undistort(distorted).value_or(distorted);
+    const glm::dvec2 ideal = idealFromMeasured(corner).value_or((corner - centre_) / scale_);
     largestRadius_ = std::max(largestRadius_, glm::length(ideal));
   }
   largestRadius_ *= 1.1;
-  const glm::dvec2 middle = (glm::dvec2(w / 2, h / 2) - centre_) / scale_;
-  const glm::dvec2 middleInWall = wallFromNormalised_.map(lens_.undistort(middle).value_or(middle));
-  sign_ = projectorFromWall_.weight(middleInWall) < 0 ? -1 : 1;
+  const glm::dvec2 middle{w / 2, h / 2};
+  const glm::dvec2 ideal = idealFromMeasured(middle).value_or((middle - centre_) / scale_);
+  middleInWall_ = view_.wallFromImage(ideal).value_or(glm::dvec2(0));
+  sign_ = view_.weight(middleInWall_) < 0 ? -1 : 1;
 }
 
 ProjectorMapping::ProjectorMapping(const ProjectorCalibration& projector)
@@ -42,25 +42,29 @@ std::optional<glm::dvec2> ProjectorMapping::wallFromProjector(glm::dvec2 pointIn
   return wallFromMeasured(measuredFromNudged_.map(pointInProjector));
 }
 
+std::optional<glm::dvec2> ProjectorMapping::idealFromMeasured(glm::dvec2 pointInMeasured) const {
+  const auto distorted = residual_.invert(pointInMeasured);
+  return distorted ? lens_.undistort((*distorted - centre_) / scale_) : std::nullopt;
+}
+
 std::optional<glm::dvec2> ProjectorMapping::wallFromMeasured(glm::dvec2 pointInMeasured) const {
-  const auto ideal = lens_.undistort((pointInMeasured - centre_) / scale_);
-  if (!ideal) return std::nullopt;
-  const glm::dvec2 pointInWall = wallFromNormalised_.map(*ideal);
-  if (!std::isfinite(pointInWall.x) || !std::isfinite(pointInWall.y)) return std::nullopt;
-  if (projectorFromWall_.weight(pointInWall) * sign_ <= 0) return std::nullopt;
+  const auto ideal = idealFromMeasured(pointInMeasured);
+  const auto pointInWall = ideal ? view_.wallFromImage(*ideal) : std::nullopt;
+  if (!pointInWall || !std::isfinite(pointInWall->x) || !std::isfinite(pointInWall->y)) return std::nullopt;
+  if (view_.weight(*pointInWall) * sign_ <= 0) return std::nullopt;
   return pointInWall;
 }
 
 std::optional<glm::dvec2> ProjectorMapping::projectorFromWall(glm::dvec2 pointInWall) const {
-  if (projectorFromWall_.weight(pointInWall) * sign_ <= 0) return std::nullopt;
-  const glm::dvec2 ideal = projectorFromWall_.map(pointInWall);
+  if (view_.weight(pointInWall) * sign_ <= 0) return std::nullopt;
+  const glm::dvec2 ideal = view_.imageFromWall(pointInWall);
   if (glm::dot(ideal, ideal) > largestRadius_ * largestRadius_) return std::nullopt;
-  return nudgedFromMeasured_.map(lens_.distort(ideal) * scale_ + centre_);
+  return nudgedFromMeasured_.map(residual_.apply(lens_.distort(ideal) * scale_ + centre_));
 }
 
 Homography ProjectorMapping::flatWallFromProjector() const {
-  return wallFromNormalised_ * Homography::scaling(glm::dvec2(1 / scale_)) * Homography::translation(-centre_) *
-         measuredFromNudged_;
+  return view_.imageFromTangent(middleInWall_).inverse() * Homography::scaling(glm::dvec2(1 / scale_)) *
+         Homography::translation(-centre_) * measuredFromNudged_;
 }
 
 bool ProjectorMapping::insideFrame(glm::dvec2 p) const {

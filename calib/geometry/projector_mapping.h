@@ -5,6 +5,8 @@
 
 #include "calib/geometry/brown_lens.h"
 #include "calib/geometry/homography.h"
+#include "calib/geometry/residual_map.h"
+#include "calib/geometry/screen_view.h"
 #include "calib/store/calibration.h"
 
 namespace pixelflex::calib {
@@ -24,7 +26,8 @@ class ProjectorMapping {
   /// the lens polynomial would fold them back in, or behind the projector.
   [[nodiscard]] std::optional<glm::dvec2> projectorFromWall(glm::dvec2 pointInWall) const;
 
-  /// The homography without the lens, wall from projector pixels: the source of projective texture weights.
+  /// The homography without the lens, wall from projector pixels, of the plane that touches the screen in the frame's
+  /// middle: the source of projective texture weights.
   [[nodiscard]] Homography flatWallFromProjector() const;
 
   [[nodiscard]] devices::Size resolution() const { return resolution_; }
@@ -38,14 +41,17 @@ class ProjectorMapping {
  private:
   [[nodiscard]] std::optional<glm::dvec2> wallFromMeasured(glm::dvec2 pointInMeasured) const;
 
-  Homography projectorFromWall_;
-  Homography wallFromNormalised_;
+  [[nodiscard]] std::optional<glm::dvec2> idealFromMeasured(glm::dvec2 pointInMeasured) const;
+
+  ScreenView view_;  // of the ideal, normalised image
   BrownLens lens_;
+  ResidualMap residual_;
   glm::dvec2 centre_;
   double scale_;
   devices::Size resolution_;
   double largestRadius_;  // of the undistorted frame, with a margin
   double sign_;           // of the homogeneous weight in front of the projector
+  glm::dvec2 middleInWall_{0, 0};
   Homography nudgedFromMeasured_;
   Homography measuredFromNudged_;
 };
