@@ -1,6 +1,7 @@
 pixelflex_test(simulate_test LABEL unit
   SOURCES unit/simulate_optics_test.cpp unit/simulate_light_test.cpp unit/simulate_camera_test.cpp
-    unit/simulate_rig_test.cpp unit/simulate_audience_test.cpp
+    unit/simulate_rig_test.cpp unit/simulate_layouts_test.cpp unit/simulate_audience_test.cpp
+    unit/simulate_screen_test.cpp unit/simulate_places_test.cpp
   LINK pixelflex_simulate pixelflex_store pixelflex_image)
 
 # OpenCV as an outside witness: its marker dictionary and its detectors.

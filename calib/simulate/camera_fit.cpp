@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calib/simulate/planar_screen.h"
 #include "calib/simulate/projector_light.h"
+#include "calib/simulate/stage.h"
 
 namespace pixelflex::calib {
 
@@ -27,8 +27,7 @@ struct Extent {
   bool all = true;
 };
 
-Extent extentOf(const SimulatedCameraSpec& camera, const std::vector<glm::dvec2>& points) {
-  const PlanarScreen screen;
+Extent extentOf(const SimulatedCameraSpec& camera, const Screen& screen, const std::vector<glm::dvec2>& points) {
   const PlacedOptics optics(camera.pose, camera.optics);
   Extent extent;
   for (const glm::dvec2 point : points) {
@@ -38,6 +37,8 @@ Extent extentOf(const SimulatedCameraSpec& camera, const std::vector<glm::dvec2>
   }
   return extent;
 }
+
+}  // namespace
 
 Optics wideLens(devices::Size size) {
   Optics optics;
@@ -49,14 +50,12 @@ Optics wideLens(devices::Size size) {
   return optics;
 }
 
-}  // namespace
-
 std::vector<glm::dvec2> frameOutlines(const Rig& rig) {
   constexpr int kSteps = 16;
-  const PlanarScreen screen;
+  const auto screen = makeScreen(rig);
   std::vector<glm::dvec2> points;
   for (const auto& spec : rig.projectors) {
-    const ProjectorLight light(spec, screen);
+    const ProjectorLight light(spec, *screen);
     const glm::dvec2 size(spec.resolution.width, spec.resolution.height);
     for (int i = 0; i <= kSteps; ++i) {
       const double t = static_cast<double>(i) / kSteps;
@@ -72,6 +71,7 @@ void placeCamera(Rig& rig) {
   auto& camera = rig.camera;
   camera.optics = wideLens(camera.size);
   camera.pose.rotation = {6, -5, 0.8};
+  const auto screen = makeScreen(rig);
   const auto points = mustSee(rig);
   const glm::dvec2 size(camera.size.width, camera.size.height);
   const glm::dvec3 along = roomFromDevice(camera.pose.rotation) * glm::dvec3(0, 0, 1);
@@ -79,7 +79,7 @@ void placeCamera(Rig& rig) {
   double distance = 3 * std::max(rig.screenSize.x, rig.screenSize.y);  // far enough to see everything
   for (int step = 0; step < 60; ++step) {
     camera.pose.position = glm::dvec3(target, 0) - along * distance;
-    const Extent extent = extentOf(camera, points);
+    const Extent extent = extentOf(camera, *screen, points);
     const glm::dvec2 span = extent.pixels.high - extent.pixels.low;
     const glm::dvec2 off = 0.5 * (extent.pixels.low + extent.pixels.high) - 0.5 * size;
     const double fill = std::max(span.x / (size.x - 2 * kBorder), span.y / (size.y - 2 * kBorder));

@@ -20,7 +20,10 @@ struct WallBounds {
 /// Points along the outlines of all frames on the wall.
 [[nodiscard]] std::vector<glm::dvec2> frameOutlines(const Rig& rig);
 
-/// Gives the rig's camera a wide lens (k1 about -0.1) and an oblique place (yaw 6, pitch 5 degrees) from which it sees
+/// A wide lens of k1 about -0.1 whose principal point is a little off the middle.
+[[nodiscard]] Optics wideLens(devices::Size size);
+
+/// Gives the rig's camera that lens and an oblique place (yaw 6, pitch 5 degrees) from which it sees
 /// all frames and markers, as large as a border of 40 pixels allows.
 void placeCamera(Rig& rig);
 

@@ -44,9 +44,9 @@ Levels levelsOf(const ImageF& radiance, const ImageF& reflectance) {
 
 }  // namespace
 
-PhotoModel::PhotoModel(const Stage& stage)
+PhotoModel::PhotoModel(const Stage& stage, const Pose& place)
     : stage_(stage),
-      view_(stage.rig().camera, stage.screen()),
+      view_(stage.rig().camera, place, stage.screen()),
       kernel_(gaussianKernel(stage.rig().camera.blur * stage.rig().camera.blur)),
       room_(lookAtRoom(stage.rig(), view_)),
       lights_(stage.lights().size()) {

@@ -12,11 +12,12 @@
 
 namespace pixelflex::calib {
 
-/// What the rig's camera sees, with everything that does not change from one photograph to the next computed once.
+/// What the rig's camera sees from one place, with everything that does not change from one photograph to the next
+/// computed once.
 class PhotoModel {
  public:
   /// Keeps a reference: the stage must outlive it.
-  explicit PhotoModel(const Stage& stage);
+  PhotoModel(const Stage& stage, const Pose& place);
 
   /// What a projector shows from now on; an empty image is black.
   void show(std::size_t projector, const devices::Image8& frame);

@@ -1,7 +1,6 @@
 #include "calib/simulate/placed_optics.h"
 
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -42,9 +41,8 @@ std::optional<glm::dvec2> PlacedOptics::wallFromPixel(const Screen& screen, glm:
 }
 
 std::optional<glm::dvec2> PlacedOptics::pixelFromWall(const Screen& screen, glm::dvec2 pointInWall) const {
-  const glm::dvec3 point = screen.roomFromWall(pointInWall);
-  if (glm::dot(position_ - point, screen.normal(pointInWall)) <= 0) return std::nullopt;
-  return pixelFromRoom(point);
+  if (!screen.isVisible(position_, pointInWall)) return std::nullopt;
+  return pixelFromRoom(screen.roomFromWall(pointInWall));
 }
 
 }  // namespace pixelflex::calib

@@ -29,7 +29,7 @@ class PlacedOptics {
   [[nodiscard]] std::optional<glm::dvec2> pixelFromRoom(glm::dvec3 point) const;
 
   [[nodiscard]] std::optional<glm::dvec2> wallFromPixel(const Screen& screen, glm::dvec2 pixel) const;
-  /// None also where the screen turns its back.
+  /// None also where the screen turns its back or hides the point.
   [[nodiscard]] std::optional<glm::dvec2> pixelFromWall(const Screen& screen, glm::dvec2 pointInWall) const;
 
  private:

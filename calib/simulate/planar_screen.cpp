@@ -19,4 +19,8 @@ glm::dvec3 PlanarScreen::normal(glm::dvec2 /*pointInWall*/) const {
   return {0, 0, -1};
 }
 
+bool PlanarScreen::isVisible(glm::dvec3 from, glm::dvec2 /*pointInWall*/) const {
+  return from.z < 0;
+}
+
 }  // namespace pixelflex::calib

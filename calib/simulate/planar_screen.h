@@ -11,6 +11,7 @@ class PlanarScreen final : public Screen {
   [[nodiscard]] glm::dvec2 wallFromRoom(glm::dvec3 point) const override;
   [[nodiscard]] glm::dvec3 roomFromWall(glm::dvec2 pointInWall) const override;
   [[nodiscard]] glm::dvec3 normal(glm::dvec2 pointInWall) const override;
+  [[nodiscard]] bool isVisible(glm::dvec3 from, glm::dvec2 pointInWall) const override;
 };
 
 }  // namespace pixelflex::calib

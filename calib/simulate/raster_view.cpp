@@ -5,8 +5,8 @@
 
 namespace pixelflex::calib {
 
-CameraView::CameraView(const SimulatedCameraSpec& camera, const Screen& screen)
-    : camera_(camera), screen_(screen), optics_(camera.pose, camera.optics) {}
+CameraView::CameraView(const SimulatedCameraSpec& camera, const Pose& place, const Screen& screen)
+    : camera_(camera), screen_(screen), optics_(place, camera.optics) {}
 
 std::optional<glm::dvec2> CameraView::wallFromRaster(glm::dvec2 pointInRaster) const {
   return optics_.wallFromPixel(screen_, pointInRaster);

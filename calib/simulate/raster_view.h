@@ -24,10 +24,10 @@ class RasterView {
   [[nodiscard]] virtual double transmission(glm::dvec2 pointInRaster) const = 0;
 };
 
-/// Keeps references: specification and screen must outlive it.
+/// The camera at one place. Keeps references: specification and screen must outlive it.
 class CameraView final : public RasterView {
  public:
-  CameraView(const SimulatedCameraSpec& camera, const Screen& screen);
+  CameraView(const SimulatedCameraSpec& camera, const Pose& place, const Screen& screen);
   [[nodiscard]] const PlacedOptics& optics() const { return optics_; }
   [[nodiscard]] devices::Size size() const override { return camera_.size; }
   [[nodiscard]] std::optional<glm::dvec2> wallFromRaster(glm::dvec2 pointInRaster) const override;

@@ -15,7 +15,9 @@
 namespace pixelflex::calib {
 
 /// Right-handed room frame in millimetres: x right and y down along the wall as the audience sees it, z into the wall;
-/// the planar screen is z = 0 and projectors and camera stand at z < 0. Wall coordinates are (x, y).
+/// the planar screen is z = 0 and projectors and camera stand at z < 0. Wall coordinates are (x, y). A cylindrical
+/// screen has a vertical axis and touches z = 0 in the middle of its width; wall coordinates are the unrolled screen,
+/// its middle in the same place.
 struct Pose {
   glm::dvec3 position{0, 0, 0};
   glm::dvec3 rotation{0, 0, 0};  // degrees: yaw about y, then pitch about x, then roll about the optical axis z
@@ -79,13 +81,18 @@ struct Room {
   bool operator==(const Room&) const = default;
 };
 
+/// Degrees: a cylindrical screen reaches no further than this to either side of its middle.
+inline constexpr double kLargestArcAngle = 80;
+
 /// The optics of a simulated wall: ground truth that no estimator may read.
 struct Rig {
   std::uint32_t seed = 1;
   glm::dvec2 screenTopLeft{0, 0};
   glm::dvec2 screenSize{3000, 1500};  // wall units (mm); outside it is a dark surround
+  double screenRadius = 0;            // 0: planar; positive: a cylinder hollow towards the audience, negative: bulging
   Room room;
   SimulatedCameraSpec camera;
+  std::vector<Pose> cameraPlaces;  // where else the same camera is put, after camera.pose
   Checkerboard checkerboard;
   int checkerboardPoses = 15;
   std::vector<SimulatedMarker> markers;

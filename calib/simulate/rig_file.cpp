@@ -18,6 +18,7 @@ using devices::Size;
 
 constexpr int kMaxPoses = 200;
 constexpr std::size_t kMaxMarkers = 50;
+constexpr std::size_t kMaxPlaces = 64;
 constexpr double kFarAway = 1e6;  // mm
 
 void read(const Node& map, const char* key, double low, double high, double& value) {
@@ -75,14 +76,18 @@ Optics readOptics(const Node& node, Size size) {
   return optics;
 }
 
+void readPlacement(const Node& node, Pose& pose) {
+  read(node, "position", -kFarAway, kFarAway, pose.position);
+  read(node, "rotation", -180, 180, pose.rotation);
+  if (pose.position.z >= 0) node.problem("position: z must be negative, before the screen");
+}
+
 /// Straight before the screen's middle, where the frame just covers `part` of the screen's width.
 Pose readPose(const Node& node, const Rig& rig, const Optics& optics, Size size, double part) {
   Pose pose;
   const glm::dvec2 middle = rig.screenTopLeft + 0.5 * rig.screenSize;
   pose.position = {middle.x, middle.y, -rig.screenSize.x * part * optics.focal / std::max(1, size.width)};
-  read(node, "position", -kFarAway, kFarAway, pose.position);
-  read(node, "rotation", -180, 180, pose.rotation);
-  if (pose.position.z >= 0) node.problem("position: z must be negative, before the screen");
+  readPlacement(node, pose);
   return pose;
 }
 
@@ -112,8 +117,18 @@ SimulatedProjectorSpec readProjector(const Node& node, const Rig& rig, std::size
   return spec;
 }
 
-SimulatedCameraSpec readCamera(const Node& node, const Rig& rig) {
-  SimulatedCameraSpec camera;
+/// Further places; what one does not say is as at the first.
+void readPlaces(const Node& list, Rig& rig) {
+  for (const Node& node : list.elements(0, kMaxPlaces - 1)) {
+    Pose place = rig.camera.pose;
+    readPlacement(node, place);
+    node.refuseUnknownKeys();
+    rig.cameraPlaces.push_back(place);
+  }
+}
+
+void readCamera(const Node& node, Rig& rig) {
+  auto& camera = rig.camera;
   if (const Node size = node.optional("size"); size.defined())
     camera.size = readSize(size, kMinResolution, kMaxResolution);
   camera.optics = readOptics(node, camera.size);
@@ -123,8 +138,8 @@ SimulatedCameraSpec readCamera(const Node& node, const Rig& rig) {
   read(node, "full_well", 1, 1e7, camera.fullWell);
   read(node, "read_noise", 0, 1e5, camera.readNoise);
   read(node, "gamma", 0.3, 5, camera.gamma);
+  if (const Node places = node.optional("places"); places.defined()) readPlaces(places, rig);
   node.refuseUnknownKeys();
-  return camera;
 }
 
 void readRoom(const Node& node, Room& room) {
@@ -137,6 +152,11 @@ void readRoom(const Node& node, Room& room) {
 void readScreen(const Node& node, Rig& rig) {
   read(node, "top_left", -kFarAway, kFarAway, rig.screenTopLeft);
   read(node, "size", 1, kFarAway, rig.screenSize);
+  read(node, "radius", -kFarAway, kFarAway, rig.screenRadius);
+  const double widest = 2 * glm::radians(kLargestArcAngle) * std::abs(rig.screenRadius);
+  if (rig.screenRadius != 0 && rig.screenSize.x > widest) {
+    node.problem("radius: a screen of this width would reach further round than 160 degrees: use a larger radius");
+  }
   node.refuseUnknownKeys();
 }
 
@@ -183,7 +203,7 @@ Rig parseRig(std::string_view text, const std::string& file) {
     rig.seed = static_cast<std::uint32_t>(node.number(0, 4294967295.0));
   if (const Node node = root.optional("screen"); node.defined()) readScreen(node, rig);
   if (const Node node = root.optional("room"); node.defined()) readRoom(node, rig.room);
-  rig.camera = readCamera(root.optional("camera"), rig);
+  readCamera(root.optional("camera"), rig);
   if (const Node node = root.optional("checkerboard"); node.defined()) readCheckerboard(node, rig);
   if (const Node node = root.optional("markers"); node.defined()) readMarkers(node, rig);
   const Node projectors = root.required("projectors");

@@ -25,6 +25,20 @@ std::string formatPlace(const Pose& pose, const Optics& optics, std::string_view
       yamlList(optics.radial), yamlList(optics.tangential));
 }
 
+/// Nothing for a camera that stays where it is.
+std::string formatPlaces(const std::vector<Pose>& places) {
+  std::string text = places.empty() ? "" : "  places:   # where else the same camera is put\n";
+  for (const Pose& place : places) {
+    text += fmt::format("    - {{position: {}, rotation: {}}}\n", triple(place.position), triple(place.rotation));
+  }
+  return text;
+}
+
+/// Nothing for a planar screen.
+std::string formatRadius(double radius) {
+  return radius == 0 ? "" : ", radius: " + yamlNumber(radius);
+}
+
 std::string formatCamera(const SimulatedCameraSpec& camera) {
   return fmt::format("camera:   # blur in pixels (sigma), full_well and read_noise in electrons\n  size: [{}, {}]\n",
                      camera.size.width, camera.size.height) +
@@ -56,18 +70,18 @@ std::string formatStage(const Rig& rig) {
       "# The optics of a simulated wall. Millimetres and degrees; x right, y down, z into the wall, the screen at z = "
       "0.\n"
       "# Rotations are yaw, pitch, roll; focal length and principal point are in pixels, lenses Brown's.\n"
-      "seed: {}\nscreen: {{top_left: {}, size: {}}}\n"
+      "seed: {}\nscreen: {{top_left: {}, size: {}{}}}\n"
       "room: {{dark: {}, lit: {}, gradient: {}}}   # ambient light, of a projector's typical white\n"
       "checkerboard: {{corners: [{}, {}], square: {}, poses: {}}}\n",
-      kRigVersion, rig.seed, pair(rig.screenTopLeft), pair(rig.screenSize), yamlNumber(rig.room.dark),
-      yamlNumber(rig.room.lit), yamlNumber(rig.room.gradient), rig.checkerboard.columns, rig.checkerboard.rows,
-      yamlNumber(rig.checkerboard.square), rig.checkerboardPoses);
+      kRigVersion, rig.seed, pair(rig.screenTopLeft), pair(rig.screenSize), formatRadius(rig.screenRadius),
+      yamlNumber(rig.room.dark), yamlNumber(rig.room.lit), yamlNumber(rig.room.gradient), rig.checkerboard.columns,
+      rig.checkerboard.rows, yamlNumber(rig.checkerboard.square), rig.checkerboardPoses);
 }
 
 }  // namespace
 
 std::string formatRig(const Rig& rig) {
-  std::string text = formatStage(rig) + formatCamera(rig.camera);
+  std::string text = formatStage(rig) + formatCamera(rig.camera) + formatPlaces(rig.cameraPlaces);
   text += rig.markers.empty() ? "markers: []\n" : "markers:\n";
   for (const auto& marker : rig.markers) text += formatMarker(marker);
   text += "projectors:\n";

@@ -34,4 +34,19 @@ namespace pixelflex::calib {
 /// A 1024x768 projector p1 and inside its frame p2, of the same resolution at three times the density.
 [[nodiscard]] Rig insetRig(std::uint32_t seed);
 
+/// Two pairs of 1024x768 projectors, p1 with p2 and p3 with p4, with dark wall between them.
+[[nodiscard]] Rig islandsRig(std::uint32_t seed);
+
+/// Three 1024x768 projectors: p2 below p1, p3 to the right of p2.
+[[nodiscard]] Rig lShapedRig(std::uint32_t seed);
+
+/// A cylindrical screen, hollow with a radius of 3 m, and three 1920x1080 projectors side by side on 70 degrees of it,
+/// overlapping by 15 to 25 %; five markers above and five below; a 1920x1080 camera that sees all of it.
+[[nodiscard]] Rig cylinderRig(std::uint32_t seed);
+
+/// Eighteen 1024x768 projectors, six by three, too many for one photograph: a 1920x1080 camera with about 0.6 pixels
+/// per projector pixel at six places, three by two. Every projector lies wholly in the picture from at least one place,
+/// most of them from several; eighteen markers around the picture.
+[[nodiscard]] Rig largeRig(std::uint32_t seed);
+
 }  // namespace pixelflex::calib

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "calib/simulate/projector_light.h"
 #include "calib/simulate/random.h"
 #include "calib/simulate/rig.h"
@@ -10,6 +12,10 @@ Wall wallOfRig(const Rig& rig, const std::string& rigFile) {
   Wall wall;
   wall.rig = rigFile;
   wall.camera = {"sim", rig.checkerboard};
+  if (rig.screenRadius != 0) {
+    wall.surface.shape = SurfaceShape::kCylinder;
+    wall.surface.cylinderRadius = std::abs(rig.screenRadius);  // hollow or bulging is for the calibration to find
+  }
   for (const auto& marker : rig.markers) {
     wall.surface.fiducials.push_back({.aruco = marker.aruco, .pointInCamera = {}, .pointInWall = marker.centre});
   }

@@ -29,10 +29,16 @@ void checkFrame(const SimulatedProjectorSpec& spec, const Image8& frame) {
   }
 }
 
+std::vector<Pose> placesOf(const Rig& rig) {
+  std::vector<Pose> places{rig.camera.pose};
+  places.insert(places.end(), rig.cameraPlaces.begin(), rig.cameraPlaces.end());
+  return places;
+}
+
 /// The camera's side of the wall, prepared at the first photograph: the audience's pictures do not need it.
 class Studio {
  public:
-  explicit Studio(const Stage& stage) : stage_(stage), frames_(stage.lights().size()) {}
+  explicit Studio(const Stage& stage) : stage_(stage), places_(placesOf(stage.rig())), frames_(stage.lights().size()) {}
 
   void show(std::size_t index, Image8 frame) {
     frames_[index] = std::move(frame);
@@ -47,6 +53,13 @@ class Studio {
     return true;
   }
 
+  [[nodiscard]] bool placeCamera(int place) {
+    if (place < 0 || static_cast<std::size_t>(place) >= places_.size()) return false;
+    if (place != place_) model_.reset();  // everything looks different from there
+    place_ = place;
+    return true;
+  }
+
   [[nodiscard]] Image8 shoot() {
     if (!model_) prepare();
     ++photographs_;
@@ -55,13 +68,15 @@ class Studio {
 
  private:
   void prepare() {
-    model_ = std::make_unique<PhotoModel>(stage_);
+    model_ = std::make_unique<PhotoModel>(stage_, places_[static_cast<std::size_t>(place_)]);
     model_->arrange(scene_, pose_);
     for (std::size_t i = 0; i < frames_.size(); ++i) model_->show(i, frames_[i]);
   }
 
   const Stage& stage_;
+  std::vector<Pose> places_;
   std::vector<Image8> frames_;
+  int place_ = 0;
   Scene scene_ = Scene::kDark;
   int pose_ = 0;
   std::uint64_t photographs_ = 0;
@@ -101,6 +116,7 @@ class StudioPerson final : public devices::Operator {
  public:
   explicit StudioPerson(Studio& studio) : studio_(studio) {}
   [[nodiscard]] bool arrange(Scene scene, int index) override { return studio_.arrange(scene, index); }
+  [[nodiscard]] bool placeCamera(int place) override { return studio_.placeCamera(place); }
 
  private:
   Studio& studio_;
@@ -110,18 +126,15 @@ class StudioPerson final : public devices::Operator {
 
 struct SimulatedWall::Impl {
   explicit Impl(Rig rig)
-      : stage(std::move(rig)),
-        view(stage.rig().camera, stage.screen()),
-        studio(stage),
-        camera(studio, stage.rig().camera.size),
-        person(studio) {
+      : stage(std::move(rig)), studio(stage), camera(studio, stage.rig().camera.size), person(studio) {
+    for (const Pose& place : placesOf(stage.rig())) cameras.emplace_back(place, stage.rig().camera.optics);
     for (std::size_t i = 0; i < stage.lights().size(); ++i) {
       projectors.push_back(std::make_unique<StudioProjector>(studio, i, stage.rig().projectors[i]));
     }
   }
 
   Stage stage;
-  CameraView view;
+  std::vector<PlacedOptics> cameras;  // one a place
   Studio studio;
   StudioCamera camera;
   StudioPerson person;
@@ -146,6 +159,9 @@ devices::Projector& SimulatedWall::projector(std::size_t index) {
 devices::Operator& SimulatedWall::person() {
   return impl_->person;
 }
+int SimulatedWall::placeCount() const {
+  return static_cast<int>(impl_->cameras.size());
+}
 
 std::optional<glm::dvec2> SimulatedWall::wallFromProjector(std::size_t index, glm::dvec2 pointInProjector) const {
   return impl_->stage.lights().at(index).wallFromPixel(pointInProjector);
@@ -155,8 +171,8 @@ std::optional<glm::dvec2> SimulatedWall::projectorFromWall(std::size_t index, gl
   return impl_->stage.lights().at(index).pixelFromWall(pointInWall);
 }
 
-std::optional<glm::dvec2> SimulatedWall::cameraFromWall(glm::dvec2 pointInWall) const {
-  return impl_->view.rasterFromWall(pointInWall);
+std::optional<glm::dvec2> SimulatedWall::cameraFromWall(glm::dvec2 pointInWall, int place) const {
+  return impl_->cameras.at(static_cast<std::size_t>(place)).pixelFromWall(impl_->stage.screen(), pointInWall);
 }
 
 double SimulatedWall::light(std::size_t index, int channel, double code01) const {

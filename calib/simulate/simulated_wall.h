@@ -14,7 +14,7 @@
 
 namespace pixelflex::calib {
 
-/// Ray geometry of a screen; planar now, the door for curved ones.
+/// Ray geometry of a screen. It has one side: from behind it is neither lit nor seen.
 class Screen {
  public:
   Screen() = default;
@@ -26,6 +26,8 @@ class Screen {
   [[nodiscard]] virtual glm::dvec2 wallFromRoom(glm::dvec3 point) const = 0;
   [[nodiscard]] virtual glm::dvec3 roomFromWall(glm::dvec2 pointInWall) const = 0;
   [[nodiscard]] virtual glm::dvec3 normal(glm::dvec2 pointInWall) const = 0;  // unit, towards the audience
+  /// Whether nothing of the screen stands between a point of the room and the audience's side of a point of the wall.
+  [[nodiscard]] virtual bool isVisible(glm::dvec3 from, glm::dvec2 pointInWall) const = 0;
 };
 
 /// A room with a screen, projectors, a camera and a person, computed physically: frames become linear radiance on the
@@ -46,13 +48,16 @@ class SimulatedWall {
   [[nodiscard]] std::size_t projectorCount() const;
   [[nodiscard]] devices::Projector& projector(std::size_t index);
   [[nodiscard]] devices::Operator& person();
+  /// How many places the person can move the camera to: the rig's camera pose and its further places.
+  [[nodiscard]] int placeCount() const;
 
   // Ground truth, for tests and for what the audience sees; never for calibration.
 
-  /// Where the light of a projector's point lands; none when it misses the screen's plane.
+  /// Where the light of a projector's point lands; none when it misses the screen's surface.
   [[nodiscard]] std::optional<glm::dvec2> wallFromProjector(std::size_t index, glm::dvec2 pointInProjector) const;
   [[nodiscard]] std::optional<glm::dvec2> projectorFromWall(std::size_t index, glm::dvec2 pointInWall) const;
-  [[nodiscard]] std::optional<glm::dvec2> cameraFromWall(glm::dvec2 pointInWall) const;
+  /// For the camera at one of its places, wherever it stands now; also outside the picture.
+  [[nodiscard]] std::optional<glm::dvec2> cameraFromWall(glm::dvec2 pointInWall, int place = 0) const;
   /// Linear light of one projector per device code, relative: response, gain and leak of a channel.
   [[nodiscard]] double light(std::size_t index, int channel, double code01) const;
   /// Radiance on the wall of a projector's full white at a point of its frame, relative to the rig's brightest.

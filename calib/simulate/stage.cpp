@@ -3,18 +3,26 @@
 #include <algorithm>
 #include <utility>
 
+#include "calib/simulate/cylindrical_screen.h"
+#include "calib/simulate/planar_screen.h"
+
 namespace pixelflex::calib {
+
+std::unique_ptr<const Screen> makeScreen(const Rig& rig) {
+  if (rig.screenRadius == 0) return std::make_unique<PlanarScreen>();
+  return std::make_unique<CylindricalScreen>(rig.screenRadius, rig.screenTopLeft.x + 0.5 * rig.screenSize.x);
+}
 
 double largestGain(const Response& response) {
   return *std::ranges::max_element(response.gain);
 }
 
-Stage::Stage(Rig rig) : rig_(std::move(rig)) {
+Stage::Stage(Rig rig) : rig_(std::move(rig)), screen_(makeScreen(rig_)) {
   double brightest = 0;
   double brightestChannel = 0;
   double sum = 0;
   for (const auto& spec : rig_.projectors) {
-    const auto level = lights_.emplace_back(spec, screen_).level();
+    const auto level = lights_.emplace_back(spec, *screen_).level();
     brightest = std::max(brightest, level.maximum);
     brightestChannel = std::max(brightestChannel, level.maximum * largestGain(spec.response));
     sum += level.mean;

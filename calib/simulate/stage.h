@@ -1,12 +1,16 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
-#include "calib/simulate/planar_screen.h"
 #include "calib/simulate/projector_light.h"
 #include "calib/simulate/rig.h"
+#include "calib/simulate/simulated_wall.h"
 
 namespace pixelflex::calib {
+
+/// The screen that the rig speaks of, planar or bent.
+[[nodiscard]] std::unique_ptr<const Screen> makeScreen(const Rig& rig);
 
 /// The rig set up: its screen, its projectors' light, and the unit in which radiance is counted.
 class Stage {
@@ -16,7 +20,7 @@ class Stage {
   Stage& operator=(const Stage&) = delete;
 
   [[nodiscard]] const Rig& rig() const { return rig_; }
-  [[nodiscard]] const Screen& screen() const { return screen_; }
+  [[nodiscard]] const Screen& screen() const { return *screen_; }
   [[nodiscard]] const std::vector<ProjectorLight>& lights() const { return lights_; }
   /// Lumens per square millimetre of the rig's brightest spot of white (of gain 1): radiance 1.
   [[nodiscard]] double unit() const { return unit_; }
@@ -27,7 +31,7 @@ class Stage {
 
  private:
   Rig rig_;
-  PlanarScreen screen_;
+  std::unique_ptr<const Screen> screen_;
   std::vector<ProjectorLight> lights_;
   double unit_ = 1;
   double typicalWhite_ = 1;
