@@ -34,9 +34,12 @@ std::string formatPlaces(const std::vector<Pose>& places) {
   return text;
 }
 
-/// Nothing for a planar screen.
-std::string formatRadius(double radius) {
-  return radius == 0 ? "" : ", radius: " + yamlNumber(radius);
+std::string formatScreen(const Rig& rig) {
+  const std::string flat = "top_left: " + pair(rig.screenTopLeft) + ", size: " + pair(rig.screenSize);
+  if (rig.screenRadius == 0) return "screen: {" + flat + "}\n";
+  const std::string radius = yamlNumber(rig.screenRadius);
+  return "screen: {" + flat + ", radius: " + radius + "}   # a cylinder that touches z = 0 in its middle; " +
+         (rig.screenRadius > 0 ? "hollow" : "bulging") + " towards the audience\n";
 }
 
 std::string formatCamera(const SimulatedCameraSpec& camera) {
@@ -70,12 +73,12 @@ std::string formatStage(const Rig& rig) {
       "# The optics of a simulated wall. Millimetres and degrees; x right, y down, z into the wall, the screen at z = "
       "0.\n"
       "# Rotations are yaw, pitch, roll; focal length and principal point are in pixels, lenses Brown's.\n"
-      "seed: {}\nscreen: {{top_left: {}, size: {}{}}}\n"
+      "seed: {}\n{}"
       "room: {{dark: {}, lit: {}, gradient: {}}}   # ambient light, of a projector's typical white\n"
       "checkerboard: {{corners: [{}, {}], square: {}, poses: {}}}\n",
-      kRigVersion, rig.seed, pair(rig.screenTopLeft), pair(rig.screenSize), formatRadius(rig.screenRadius),
-      yamlNumber(rig.room.dark), yamlNumber(rig.room.lit), yamlNumber(rig.room.gradient), rig.checkerboard.columns,
-      rig.checkerboard.rows, yamlNumber(rig.checkerboard.square), rig.checkerboardPoses);
+      kRigVersion, rig.seed, formatScreen(rig), yamlNumber(rig.room.dark), yamlNumber(rig.room.lit),
+      yamlNumber(rig.room.gradient), rig.checkerboard.columns, rig.checkerboard.rows,
+      yamlNumber(rig.checkerboard.square), rig.checkerboardPoses);
 }
 
 }  // namespace

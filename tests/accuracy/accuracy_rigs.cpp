@@ -30,6 +30,8 @@ const std::vector<AccuracyRig>& accuracyRigs() {
       {"short-throw", shortThrowRig, kHard, {}},
       {"inset", insetRig, kHard, 0},
       {"report-8-coarse", coarseRig, {0.08, 0.3, 0.4}, {}},
+      {"cylinder", cylinderRig, {0.06, 0.25, 0.5}, {}, true},
+      {"large-18", largeRig, {0.05, 0.2, 0.4}, {}},
   };
   return kRigs;
 }

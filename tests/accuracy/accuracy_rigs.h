@@ -21,6 +21,7 @@ struct AccuracyRig {
   std::function<Rig(std::uint32_t seed)> make;
   AccuracyTarget target;
   std::optional<std::size_t> unit;  // the projector in whose pixels errors count; none: each in its own
+  bool dense = false;               // measured with the dense method instead of blobs
 };
 
 [[nodiscard]] const std::vector<AccuracyRig>& accuracyRigs();

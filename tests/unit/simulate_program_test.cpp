@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calib/simulate/rig_generator.h"
+#include "calib/simulate/simulated_wall.h"
 #include "calib/store/store.h"
 #include "devices/image/atomic_file.h"
 #include "devices/image/png_file.h"
@@ -104,6 +105,29 @@ TEST_F(SimulateProgram, ShowsAnUncalibratedWall) {
                                 picture().string(), "--size", "500x330"});
   EXPECT_EQ(output.status, 0) << output.text;
   EXPECT_GT(devices::readPng8(picture()).at(250, 165, 1), 100);
+}
+
+TEST_F(SimulateProgram, UnrollsACurvedScreen) {
+  const Rig rig = cylinderRig(1);
+  devices::writeFileAtomically(wall() / "rig.yaml", formatRig(rig));
+  saveWall(wall(), wallOfRig(rig, "rig.yaml"));
+  for (const auto& projector : rig.projectors) {  // a white square in the middle of each frame
+    Image8 frame(projector.resolution, 3);
+    for (int y = 500; y < 580; ++y) {
+      for (int x = 920; x < 1000; ++x) frame.at(x, y, 1) = 255;
+    }
+    devices::writePng(frames() / (projector.name + ".png"), frame);
+  }
+  const devices::Size size{static_cast<int>(rig.screenSize.x / 4), static_cast<int>(rig.screenSize.y / 4)};
+  ASSERT_EQ(compose({"--size", std::to_string(size.width) + "x" + std::to_string(size.height)}).status, 0);
+  const Image8 image = devices::readPng8(picture());
+  const SimulatedWall truth(rig);
+  for (std::size_t i = 0; i < rig.projectors.size(); ++i) {
+    const glm::dvec2 square = truth.wallFromProjector(i, {960, 540}).value() / 4.0;
+    EXPECT_GT(image.at(static_cast<int>(square.x), static_cast<int>(square.y), 1), 150);
+    EXPECT_LT(image.at(static_cast<int>(square.x) + 16, static_cast<int>(square.y), 1), 60);
+    EXPECT_LT(image.at(static_cast<int>(square.x) - 16, static_cast<int>(square.y), 1), 60);
+  }
 }
 
 TEST_F(SimulateProgram, SaysWhatIsWrongWithTheWall) {

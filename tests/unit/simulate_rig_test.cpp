@@ -42,6 +42,8 @@ TEST(SimulateRigFile, ShippedRigsAreTheGenerators) {
   const std::filesystem::path folder = std::filesystem::path(PIXELFLEX_SOURCE_DIR) / "config" / "rigs";
   EXPECT_EQ(loadRig(folder / "report-8.yaml"), reportRig(8));
   EXPECT_EQ(loadRig(folder / "mini-2.yaml"), miniRig(2));
+  EXPECT_EQ(loadRig(folder / "cylinder-3.yaml"), cylinderRig(1));
+  EXPECT_EQ(loadRig(folder / "large-18.yaml"), largeRig(1));
 }
 
 TEST(SimulateRigFile, ShortFormHasUsableDefaults) {

@@ -44,16 +44,14 @@ TEST(SimulateMarkers, PatternsAreTheDictionary) {
   }
 }
 
-TEST(SimulateMarkers, AreFoundInRoomLightWhereTheyHang) {
-  SimulatedWall wall(reportRig(8));
-  ASSERT_TRUE(wall.person().arrange(Scene::kRoomLight, 0));
-  const cv::Mat photo = greyOf(wall.camera().shoot());
+/// Looks for the markers as the camera sees them where it stands; how many are where they should be.
+std::size_t checkMarkers(SimulatedWall& wall, int place) {
   std::vector<int> ids;
   std::vector<std::vector<cv::Point2f>> corners;
   auto parameters = cv::aruco::DetectorParameters::create();
   parameters->cornerRefinementMethod = cv::aruco::CORNER_REFINE_SUBPIX;
-  cv::aruco::detectMarkers(photo, cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_50), corners, ids, parameters);
-  ASSERT_EQ(ids.size(), wall.rig().markers.size());
+  cv::aruco::detectMarkers(greyOf(wall.camera().shoot()), cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_50),
+                           corners, ids, parameters);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const auto& marker = wall.rig().markers.at(static_cast<std::size_t>(ids[i]));
     const double angle = marker.roll * CV_PI / 180;
@@ -62,12 +60,28 @@ TEST(SimulateMarkers, AreFoundInRoomLightWhereTheyHang) {
     const std::vector<glm::dvec2> truth{marker.centre - right - down, marker.centre + right - down,
                                         marker.centre + right + down, marker.centre - right + down};
     for (std::size_t k = 0; k < 4; ++k) {
-      const auto pixel = wall.cameraFromWall(truth[k]).value();
+      const auto pixel = wall.cameraFromWall(truth[k], place).value();
       EXPECT_NEAR(corners[i][k].x + 0.5, pixel.x, 0.35);
       EXPECT_NEAR(corners[i][k].y + 0.5, pixel.y, 0.35);
     }
     EXPECT_GE(std::hypot(corners[i][1].x - corners[i][0].x, corners[i][1].y - corners[i][0].y), 40);
   }
+  return ids.size();
+}
+
+TEST(SimulateMarkers, AreFoundInRoomLightWhereTheyHang) {
+  for (const Rig& rig : {reportRig(8), cylinderRig(1)}) {
+    SimulatedWall wall(rig);
+    ASSERT_TRUE(wall.person().arrange(Scene::kRoomLight, 0));
+    EXPECT_EQ(checkMarkers(wall, 0), rig.markers.size());
+  }
+}
+
+TEST(SimulateMarkers, AreFoundFromFurtherPlaces) {
+  SimulatedWall wall(largeRig(1));
+  ASSERT_TRUE(wall.person().arrange(Scene::kRoomLight, 0));
+  ASSERT_TRUE(wall.person().placeCamera(4));
+  EXPECT_GE(checkMarkers(wall, 4), 3U);
 }
 
 TEST(SimulateBoard, EveryCornerIsInThePictureAndTiltsStayModest) {
