@@ -10,5 +10,8 @@ pixelflex_test(registration_test LABEL gl TIMEOUT 300
 pixelflex_test(geometry_test LABEL unit
   SOURCES unit/geometry_mapping_test.cpp unit/geometry_display_test.cpp unit/geometry_mesh_test.cpp unit/geometry_nudge_test.cpp unit/geometry_screen_test.cpp
   LINK pixelflex_geometry)
+pixelflex_test(patterns_dense_test LABEL unit
+  SOURCES unit/patterns_dense_test.cpp
+  LINK pixelflex_patterns pixelflex_simulate)
 pixelflex_test(estimate_test LABEL unit SOURCES unit/estimate_test.cpp unit/estimate_fit_test.cpp LINK pixelflex_estimate pixelflex_patterns)
 pixelflex_test(photometric_test LABEL unit SOURCES unit/photometric_test.cpp LINK pixelflex_photometric)
