@@ -15,3 +15,6 @@ pixelflex_test(patterns_dense_test LABEL unit
   LINK pixelflex_patterns pixelflex_simulate)
 pixelflex_test(estimate_test LABEL unit SOURCES unit/estimate_test.cpp unit/estimate_fit_test.cpp LINK pixelflex_estimate pixelflex_patterns)
 pixelflex_test(photometric_test LABEL unit SOURCES unit/photometric_test.cpp LINK pixelflex_photometric)
+pixelflex_test(report_test LABEL unit
+  SOURCES unit/report_seams_test.cpp
+  LINK pixelflex_report pixelflex_simulate)

@@ -1,6 +1,10 @@
 #include "calib/procedure/summary.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "calib/geometry/projector_mapping.h"
+#include "calib/procedure/procedure.h"
 
 namespace pixelflex::calib {
 namespace {
@@ -25,29 +29,70 @@ ProjectorSummary describe(const ProjectorConfig& config, const Calibration& cali
   return summary;
 }
 
-void compareWithOthers(std::vector<ProjectorSummary>& all, std::size_t own) {
-  auto& projector = all[own];
-  if (!projector.calibrated) return;
-  const double area = areaOf(projector.outline);
-  std::vector<Outline> others;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (i == own || !all[i].calibrated) continue;
-    const double shared = overlapArea(projector.outline, all[i].outline);
-    if (shared <= 1e-4 * area) continue;
-    projector.neighbours.push_back(all[i].name);
-    others.push_back(all[i].outline);
+void findNeighbours(const std::vector<Seam>& seams, std::vector<ProjectorSummary>& all) {
+  for (auto& projector : all) {
+    for (const auto& seam : seams) {
+      if (seam.first == projector.name) projector.neighbours.push_back(seam.second);
+      if (seam.second == projector.name) projector.neighbours.push_back(seam.first);
+    }
+    if (projector.calibrated && projector.neighbours.empty() && all.size() > 1) {
+      projector.note = "overlaps no other projector";
+    }
   }
-  if (others.empty()) {
-    if (projector.note.empty() && all.size() > 1) projector.note = "overlaps no other projector";
-    return;
+}
+
+/// The part of a footprint that others light as well, by counting points of the frame, each for the wall it lights.
+double overlapOf(const ProjectorCalibration& own, const std::vector<ProjectorMapping>& others) {
+  constexpr int kSteps = 96;
+  const ProjectorMapping mapping(own);
+  const glm::dvec2 step = glm::dvec2(own.resolution.width, own.resolution.height) / double{kSteps};
+  double all = 0, shared = 0;
+  for (int i = 0; i < kSteps * kSteps; ++i) {
+    const glm::dvec2 p = step * glm::dvec2(i % kSteps + 0.5, i / kSteps + 0.5);
+    const auto inWall = mapping.wallFromProjector(p);
+    const double density = mapping.density(p);
+    if (!inWall || density <= 0) continue;
+    const double area = 1 / (density * density);
+    all += area;
+    const auto lights = [&](const ProjectorMapping& other) {
+      const auto there = other.projectorFromWall(*inWall);
+      return there && other.insideFrame(*there);
+    };
+    if (std::ranges::any_of(others, lights)) shared += area;
   }
-  // Lit by others as well: what the union would lose by taking this projector's own part out.
-  const double othersArea = uniteFootprints(others).area;
-  others.push_back(projector.outline);
-  projector.overlapPercent = 100 * (area + othersArea - uniteFootprints(others).area) / area;
+  return all > 0 ? 100 * shared / all : 0;
+}
+
+void describeOverlap(const Calibration& calibration, ProjectorSummary& projector) {
+  std::vector<ProjectorMapping> others;
+  for (const auto& name : projector.neighbours) {
+    if (const auto* other = calibration.find(name)) others.emplace_back(*other);
+  }
+  const auto* own = calibration.find(projector.name);
+  if (own != nullptr && !others.empty()) projector.overlapPercent = overlapOf(*own, others);
+}
+
+void compareWithDisplay(const Display& display, ProjectorSummary& projector) {
+  const double inside = overlapArea(projector.outline, displayOutline(display));
+  projector.displayPercent = 100 * inside / areaOf(projector.outline);
+  projector.desktopDensity = projector.density / desktopPixelsPerUnit(display);
+  if (inside <= 0) projector.note = "outside the display: shows nothing of the desktop";
+}
+
+std::vector<std::string> missingSteps(const Wall& wall, const Calibration& calibration) {
+  std::vector<std::string> missing;
+  if (wall.isFlat()) return missing;
+  for (const auto& step : stepNames()) {
+    if (!calibration.steps.contains(step)) missing.push_back(step);
+  }
+  return missing;
 }
 
 }  // namespace
+
+double desktopPixelsPerUnit(const Display& d) {
+  return std::sqrt(static_cast<double>(d.resolution.area()) / ((d.right - d.left) * (d.bottom - d.top)));
+}
 
 Summary summarise(const Wall& wall, const Calibration& calibration) {
   Summary summary;
@@ -57,13 +102,14 @@ Summary summarise(const Wall& wall, const Calibration& calibration) {
     if (projector.calibrated) outlines.push_back(projector.outline);
   }
   if (!outlines.empty()) summary.lit = uniteFootprints(outlines);
-  for (std::size_t i = 0; i < summary.projectors.size(); ++i) compareWithOthers(summary.projectors, i);
+  summary.seams = findSeams(calibration);
+  findNeighbours(summary.seams, summary.projectors);
   for (auto& projector : summary.projectors) {
-    if (!projector.calibrated || !calibration.display) continue;
-    const double inside = overlapArea(projector.outline, displayOutline(*calibration.display));
-    projector.displayPercent = 100 * inside / areaOf(projector.outline);
-    if (inside <= 0) projector.note = "outside the display: shows nothing of the desktop";
+    if (!projector.calibrated) continue;
+    describeOverlap(calibration, projector);
+    if (calibration.display) compareWithDisplay(*calibration.display, projector);
   }
+  summary.missingSteps = missingSteps(wall, calibration);
   return summary;
 }
 

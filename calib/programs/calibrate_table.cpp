@@ -15,6 +15,15 @@ std::string projectorLine(const ProjectorSummary& p, std::size_t width) {
                      p.note);
 }
 
+std::string formatFindings(const Summary& summary, const std::vector<Finding>& findings) {
+  std::string lines = "\n" + verdict(summary, findings) + "\n";
+  for (const auto& finding : findings) {
+    lines += fmt::format("  {:<6}  {}: {}; {}\n", finding.severity == Severity::kBad ? "bad" : "notice", finding.where,
+                         finding.what, finding.cure);
+  }
+  return lines;
+}
+
 }  // namespace
 
 std::string formatTable(const Wall& wall, const Calibration& calibration, const Summary& summary) {
@@ -40,7 +49,11 @@ std::string formatTable(const Wall& wall, const Calibration& calibration, const 
                          "display", width, d->right - d->left, d->bottom - d->top, units, d->left, d->top, litPercent,
                          d->resolution.width, d->resolution.height);
   }
-  return table;
+  if (const SeamFigures seams = seamFigures(summary.seams); seams.count > 0) {
+    table += fmt::format("{:<{}}  {} overlaps, expected error {:.3f} px rms, {:.3f} px at worst ({})\n", "seams", width,
+                         seams.count, seams.rms, seams.worst, seams.worstAt);
+  }
+  return table + formatFindings(summary, judge(wall, calibration, summary));
 }
 
 std::string formatDrifts(const std::vector<ProjectorDrift>& drifts) {

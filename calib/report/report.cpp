@@ -2,79 +2,24 @@
 
 #include <fmt/format.h>
 
-#include "calib/report/report_drawing.h"
+#include <algorithm>
+
+#include "calib/procedure/verdicts.h"
+#include "calib/report/html_text.h"
+#include "calib/report/photo_drawing.h"
+#include "calib/report/projector_drawing.h"
+#include "calib/report/report_style.h"
+#include "calib/report/report_tables.h"
+#include "calib/report/wall_drawing.h"
 #include "devices/image/image_error.h"
 #include "devices/image/png_file.h"
 
 namespace pixelflex::calib {
 namespace {
 
-constexpr const char* kHead = R"(<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><title>Calibration of the wall</title>
-<style>
-:root { color-scheme: light dark; }
-body { font: 16px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 2rem auto; padding: 0 1rem; }
-svg.wall { width: 100%; height: auto; } svg.wall text { fill: currentColor; }
-table { border-collapse: collapse; } td, th { padding: .2rem .8rem; text-align: right; }
-th { border-bottom: 1px solid; } td:first-child, th:first-child, td:last-child, th:last-child { text-align: left; }
-.projectors { display: grid; grid-template-columns: repeat(auto-fill, minmax(20rem, 1fr)); gap: 1rem; }
-svg.residuals, svg.mask { width: 100%; height: auto; display: block; margin-bottom: .3rem; }
-svg.residuals rect { fill: #8882; } svg.residuals circle { fill: #888; }
-svg.residuals line { stroke: #d33; stroke-width: 3; }
-.note { color: #c60; }
-</style></head><body>
-)";
+namespace fs = std::filesystem;
 
-std::string figures(const Wall& wall, const Summary& summary) {
-  std::string table = fmt::format(
-      "<table><tr><th>projector</th><th>blobs</th><th>rms px</th><th>95 % px</th><th>max px</th><th>px/{}</th>"
-      "<th>overlap</th><th>in display</th><th>note</th></tr>\n",
-      escaped(wall.surface.units));
-  for (const auto& p : summary.projectors) {
-    if (!p.calibrated) {
-      table += fmt::format("<tr><td>{}</td><td colspan=\"7\"></td><td class=\"note\">{}</td></tr>\n", escaped(p.name),
-                           escaped(p.note));
-      continue;
-    }
-    std::string neighbours;
-    for (const auto& name : p.neighbours) neighbours += (neighbours.empty() ? "overlaps " : ", ") + name;
-    table += fmt::format(
-        "<tr><td>{}</td><td>{}/{}</td><td>{:.3f}</td><td>{:.3f}</td><td>{:.3f}</td><td>{:.3f}</td><td>{:.1f} %</td>"
-        "<td>{:.1f} %</td><td>{}</td></tr>\n",
-        escaped(p.name), p.quality.found, p.quality.shown, p.quality.rms, p.quality.p95, p.quality.maximum, p.density,
-        p.overlapPercent, p.displayPercent,
-        p.note.empty() ? escaped(neighbours) : "<span class=\"note\">" + escaped(p.note) + "</span>");
-  }
-  return table + "</table>\n";
-}
-
-std::string overview(const Wall& wall, const Calibration& calibration, const Summary& summary) {
-  std::string text;
-  const std::string units = escaped(wall.surface.units);
-  if (const auto& d = calibration.display) {
-    text += fmt::format("<p>Display {:.0f} × {:.0f} {} (dashed), desktop <b>{}×{}</b> pixels.", d->right - d->left,
-                        d->bottom - d->top, units, d->resolution.width, d->resolution.height);
-    if (summary.lit.islands.size() > 1) {
-      text += fmt::format(" The lit area falls into {} parts.", summary.lit.islands.size());
-    }
-    if (!summary.lit.holes.empty()) text += fmt::format(" It has {} holes.", summary.lit.holes.size());
-    text += "</p>\n";
-  }
-  if (const auto& camera = calibration.camera) {
-    text += fmt::format(
-        "<p>Camera {}×{}, {} checkerboard photographs, reprojection {:.3f} px rms; f = {:.1f}, {:.1f}; k = {:.4f}, "
-        "{:.4f}, "
-        "{:.4f}.</p>\n",
-        camera->size.width, camera->size.height, camera->photos, camera->rmsPx, camera->fx, camera->fy,
-        camera->radial[0], camera->radial[1], camera->radial[2]);
-  }
-  if (const auto& surface = calibration.surface) {
-    text += fmt::format("<p>Fiducials fit the wall to {:.3f} {} rms.</p>\n", surface->rms, units);
-  }
-  return text;
-}
-
-std::string maskOf(const std::filesystem::path& folder, const ProjectorCalibration& projector) {
+std::string maskOf(const fs::path& folder, const ProjectorCalibration& projector) {
   if (!projector.alpha) return "";
   try {
     return drawMask(devices::readPng16(folder / *projector.alpha));
@@ -83,21 +28,161 @@ std::string maskOf(const std::filesystem::path& folder, const ProjectorCalibrati
   }
 }
 
+std::string figure(const std::string& place, const std::string& drawing, const std::string& caption) {
+  if (drawing.empty()) return "";
+  return fmt::format("<figure class=\"{}\">\n{}<figcaption>{}</figcaption></figure>\n", place, drawing, caption);
+}
+
+std::string photoCaption(const FitQuality& quality) {
+  const int missing = quality.shown - quality.found;
+  return fmt::format("In the camera’s photograph: {} of {} points found{}.", quality.found, quality.shown,
+                     missing > 0 ? ", crosses where one is missing" : "");
+}
+
+std::string numbers(const ProjectorSummary& p) {
+  std::string list = "<dl class=\"numbers\">\n";
+  const auto add = [&](const char* term, const std::string& text) {
+    list += fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, text);
+  };
+  const FitQuality& q = p.quality;
+  add("points found", fmt::format("{} of {}", q.found, q.shown));
+  add("residual rms / max", fmt::format("{:.3f} / {:.3f} px", q.rms, q.maximum));
+  if (q.heldOut > 0) add("held-out rms", fmt::format("{:.3f} px", q.heldOut));
+  if (q.deviation > 0) add("model ±", fmt::format("{:.3f} px", q.deviation));
+  if (q.cameraScale > 0) add("camera px per px", fmt::format("{:.2f}", q.cameraScale));
+  if (p.desktopDensity > 0) add("px per desktop px", fmt::format("{:.2f}", p.desktopDensity));
+  add("overlapped", fmt::format("{:.1f} %", p.overlapPercent));
+  add("in the display", fmt::format("{:.1f} %", p.displayPercent));
+  return list + "</dl>\n";
+}
+
+std::string modelOf(const ProjectorModel& model) {
+  return fmt::format(
+      "model: homography, lens k {:.4f} {:.4f} {:.4f}, p {:.5f} {:.5f}, centre {:.1f} / {:.1f}{}{}", model.radial[0],
+      model.radial[1], model.radial[2], model.tangential[0], model.tangential[1], model.centre.x, model.centre.y,
+      model.bend ? ", bent screen" : "",
+      model.residual ? fmt::format(", residual spline of {} × {} cells", model.residual->columns, model.residual->rows)
+                     : "");
+}
+
+std::string badge(const std::string& name, const std::vector<Finding>& findings) {
+  const auto found = std::ranges::find(findings, name, &Finding::where);  // the bad ones come first
+  if (found == findings.end()) return "<span class=\"tag good\">good</span>";
+  const char* word = found->severity == Severity::kBad ? "bad" : "notice";
+  return fmt::format("<span class=\"tag {0}\">{0}</span>", word);
+}
+
+class ReportPage {
+ public:
+  ReportPage(const fs::path& folder, const Wall& wall, const Calibration& calibration, const Summary& summary)
+      : folder_(folder),
+        wall_(wall),
+        calibration_(calibration),
+        summary_(summary),
+        findings_(judge(wall, calibration, summary)) {}
+
+  [[nodiscard]] std::string html() const {
+    return head() + opening() + wallPart() + densityPart() + tables() + projectors() +
+           "<section class=\"part\"><h2>What the words mean</h2>\n<div class=\"sheet\">" + termsHtml() +
+           "</div></section>\n<footer>Written by pixelflex calibrate.</footer>\n</main></body></html>\n";
+  }
+
+ private:
+  [[nodiscard]] std::string title() const {
+    std::error_code ignored;
+    const fs::path whole = fs::absolute(folder_, ignored);
+    const fs::path name = whole.has_filename() ? whole.filename() : whole.parent_path().filename();
+    return "Calibration of " + (name.empty() ? "the wall" : name.string());
+  }
+
+  [[nodiscard]] std::string head() const {
+    std::string text = kReportHead;
+    const std::string mark = "%TITLE%";
+    text.replace(text.find(mark), mark.size(), escaped(title()));
+    return text + kReportPatterns;
+  }
+
+  [[nodiscard]] std::string opening() const {
+    const bool bad = !findings_.empty() && findings_.front().severity == Severity::kBad;
+    return fmt::format(
+        "<main>\n<h1>{}</h1>\n<p class=\"verdict {}\">{}</p>\n{}<section>\n<h2>Verdict</h2>\n{}</section>\n",
+        escaped(title()),
+        bad                 ? "bad"
+        : findings_.empty() ? "good"
+                            : "notice",
+        escaped(verdict(summary_, findings_)), factsHtml(wall_, calibration_, summary_), findingsHtml(findings_));
+  }
+
+  [[nodiscard]] std::string wallPart() const {
+    const std::string drawing = drawWall(wall_, calibration_, summary_);
+    if (drawing.empty()) return "";
+    std::string caption = "As the audience sees it. Dashed: the display, filled by the desktop.";
+    if (!wall_.surface.fiducials.empty() && !wall_.isFlat()) caption += " Crosses: fiducials.";
+    if (summary_.lit.islands.size() > 1) {
+      caption += fmt::format(" The lit area falls into {} parts.", summary_.lit.islands.size());
+    }
+    if (!summary_.lit.holes.empty()) caption += " Hatched: lit by no projector.";
+    return "<section class=\"part\"><h2>The wall</h2>\n<div class=\"sheet\">" + figure("front", drawing, caption) +
+           figure("plan", drawPlan(calibration_, summary_), "From above: the screen, and what each projector lights.") +
+           "</div></section>\n";
+  }
+
+  [[nodiscard]] std::string densityPart() const {
+    const std::string drawing = drawWallDensity(wall_, calibration_, summary_);
+    if (drawing.empty()) return "";
+    return "<section class=\"part\"><h2>Sharpness</h2>\n<div class=\"sheet\">" +
+           figure("front", drawing,
+                  "Projector pixels per desktop pixel. Below 1 (the full line) small text is soft; from 1.25 (the "
+                  "dashed line) it is crisp. Where projectors overlap, as the blend mixes them.") +
+           "</div></section>\n";
+  }
+
+  [[nodiscard]] std::string tables() const {
+    const std::string measurement = measurementTable(wall_, calibration_);
+    return "<section><h2>Overlaps</h2>\n" + seamTable(summary_, findings_) + "</section>\n<section><h2>Figures</h2>\n" +
+           projectorTable(wall_, summary_) + "</section>\n" +
+           (measurement.empty() ? "" : "<section><h2>Camera and surface</h2>\n" + measurement + "</section>\n");
+  }
+
+  [[nodiscard]] std::string projectors() const {
+    std::string html = "<section class=\"projectors\"><h2>Projectors</h2>\n";
+    for (std::size_t i = 0; i < summary_.projectors.size(); ++i) html += article(i);
+    return html + "</section>\n";
+  }
+
+  [[nodiscard]] std::string article(std::size_t index) const {
+    const auto& p = summary_.projectors[index];
+    const auto* projector = calibration_.find(p.name);
+    std::string html = fmt::format(
+        "<article class=\"sheet\"><header><h3><span class=\"chip\" style=\"background:{}\"></span>{}</h3>{}",
+        colourOf(index), escaped(p.name), badge(p.name, findings_));
+    if (projector == nullptr) return html + "<span class=\"sub\">not calibrated</span></header></article>\n";
+    html += fmt::format("<span class=\"sub\">{} × {}</span></header>\n<div class=\"figures\">\n",
+                        projector->resolution.width, projector->resolution.height);
+    const std::string photo = drawPhotograph(folder_, calibration_, *projector);
+    const std::string residuals = figure(photo.empty() ? "third" : "high", drawResiduals(*projector),
+                                         "Residuals: from where a point was shown to where the model has it.");
+    html += figure("wide", photo, photoCaption(p.quality)) + residuals;
+    html += "<div class=\"third\">" + numbers(p) + "</div>\n";
+    if (calibration_.display) {
+      html += figure("third", drawDensity(*projector, *calibration_.display), "Density over the frame.");
+    }
+    html += figure("third", maskOf(folder_, *projector), "Blend mask.");
+    return html + "</div>\n<p class=\"sub\">" + modelOf(projector->model) + "</p></article>\n";
+  }
+
+  const fs::path& folder_;
+  const Wall& wall_;
+  const Calibration& calibration_;
+  const Summary& summary_;
+  std::vector<Finding> findings_;
+};
+
 }  // namespace
 
-std::string reportHtml(const std::filesystem::path& folder, const Wall& wall, const Calibration& calibration,
+std::string reportHtml(const fs::path& folder, const Wall& wall, const Calibration& calibration,
                        const Summary& summary) {
-  std::string html = kHead;
-  html += "<h1>Calibration of the wall</h1>\n" + drawWall(calibration, summary);
-  html += overview(wall, calibration, summary);
-  html += "<h2>Projectors</h2>\n" + figures(wall, summary);
-  html += "<p>Errors are what the lens model leaves of each measured blob, in projector pixels.</p>\n";
-  html += "<h2>Residuals (a thousand times enlarged) and blend masks</h2>\n<div class=\"projectors\">\n";
-  for (const auto& projector : calibration.projectors) {
-    html += fmt::format("<figure><figcaption>{}</figcaption>\n", escaped(projector.name));
-    html += drawResiduals(projector) + maskOf(folder, projector) + "</figure>\n";
-  }
-  return html + "</div></body></html>\n";
+  return ReportPage(folder, wall, calibration, summary).html();
 }
 
 }  // namespace pixelflex::calib
