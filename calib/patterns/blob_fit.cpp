@@ -9,8 +9,9 @@ namespace {
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
-GaussianFit fitOf(const Vector5& p) {
-  return {{p[0], p[1]}, p[2], p[3], p[4]};
+GaussianFit fitOf(const Vector5& p, const Matrix5& normal, double cost, std::size_t samples) {
+  const Matrix5 covariance = normal.inverse() * (cost / static_cast<double>(samples - 5));
+  return {{p[0], p[1]}, p[2], p[3], p[4], std::sqrt(0.5 * (covariance(0, 0) + covariance(1, 1)))};
 }
 
 /// Sum of squares; also the normal equations when asked for.
@@ -54,13 +55,13 @@ std::optional<GaussianFit> fitGaussian(std::span<const LightSample> samples, con
       p = candidate;
       damping = std::max(1e-9, damping / 4);
       cost = evaluate(samples, p, &normal, &gradient);
-      if (step.head<2>().norm() < 1e-7 * p[2]) return fitOf(p);
+      if (step.head<2>().norm() < 1e-7 * p[2]) return fitOf(p, normal, cost, samples.size());
     } else {
       damping *= 8;
       if (damping > 1e9) break;  // no step helps: this is the minimum
     }
   }
-  return damping > 1e9 ? std::optional(fitOf(p)) : std::nullopt;
+  return damping > 1e9 ? std::optional(fitOf(p, normal, cost, samples.size())) : std::nullopt;
 }
 
 }  // namespace pixelflex::calib

@@ -17,6 +17,7 @@ struct GaussianFit {
   double sigma = 0;
   double amplitude = 0;
   double background = 0;
+  double error = 0;  // standard deviation of the centre, per axis, by the residuals
 };
 
 /// Least-squares fit of background + amplitude * exp(-|p - centre|^2 / 2 sigma^2), Levenberg-Marquardt from the start
