@@ -1,10 +1,11 @@
 #include "calib/capture/folder_photographs.h"
 
 #include <algorithm>
-#include <array>
-#include <system_error>
+#include <cassert>
 #include <utility>
 
+#include "calib/capture/capture_folder.h"
+#include "calib/capture/photo_files.h"
 #include "calib/store/yaml_reader.h"
 #include "devices/image/image_error.h"
 #include "devices/image/photo_file.h"
@@ -13,44 +14,7 @@ namespace pixelflex::calib {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array kEndings = {".png", ".jpg", ".jpeg", ".PNG", ".JPG", ".JPEG"};
-
-bool isPhoto(const fs::path& file) {
-  return std::ranges::find(kEndings, file.extension().string()) != kEndings.end();
-}
-
-std::vector<fs::path> photosIn(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code missing;
-  for (const auto& entry : fs::directory_iterator(folder, missing)) {
-    if (entry.is_regular_file() && isPhoto(entry.path())) files.push_back(entry.path());
-  }
-  std::ranges::sort(files);
-  return files;
-}
-
-std::string stampOf(const fs::path& file) {
-  std::error_code missing;
-  const auto size = fs::file_size(file, missing);
-  if (missing) return file.filename().string() + "-";
-  const auto time = fs::last_write_time(file, missing).time_since_epoch().count();
-  return file.filename().string() + " " + std::to_string(size) + " " + std::to_string(time) + "\n";
-}
-
-}  // namespace
-
-FolderPhotographs::FolderPhotographs(fs::path folder, fs::path captures)
-    : folder_(std::move(folder)), captures_(std::move(captures)) {
-  if (!fs::is_directory(folder_)) {
-    throw CaptureError(folder_.string() +
-                       ": no such folder; `pixelflex calibrate WALL --patterns DIR` tells what to photograph");
-  }
-  checkerboards_ = photosIn(folder_ / "checkerboard");
-}
-
-std::optional<CameraIntrinsics> FolderPhotographs::knownCamera() {
-  const fs::path file = folder_ / "camera.yaml";
-  if (!fs::exists(file)) return std::nullopt;
+CameraIntrinsics readIntrinsics(const fs::path& file) {
   YamlReader reader(readStoreFile(file.string()), file.string());
   auto node = reader.root();
   if (const auto nested = node.optional("camera"); nested.defined()) node = nested;
@@ -67,63 +31,117 @@ std::optional<CameraIntrinsics> FolderPhotographs::knownCamera() {
   camera.size = {static_cast<int>(size[0]), static_cast<int>(size[1])};
   std::copy_n(radial.begin(), 3, camera.radial.begin());
   std::copy_n(tangential.begin(), 2, camera.tangential.begin());
-  used_.push_back(file);
   return camera;
+}
+
+bool liesIn(const fs::path& file, const fs::path& folder) {
+  const fs::path relative = fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(folder));
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+}  // namespace
+
+FolderPhotographs::FolderPhotographs(const std::vector<fs::path>& folders, fs::path captures)
+    : captures_(std::move(captures)) {
+  assert(!folders.empty());
+  for (const auto& folder : folders) {
+    if (fs::is_directory(folder)) continue;
+    throw CaptureError(folder.string() +
+                       ": no such folder; `pixelflex calibrate WALL --patterns DIR` tells what to photograph");
+  }
+  places_ = folders.size() == 1 ? placesIn(folders.front()) : folders;
+  common_ = folders;
+  if (places_ != folders) common_.insert(common_.end(), places_.begin(), places_.end());
+  for (std::size_t i = 0; i < common_.size(); ++i) {
+    // The same name in two places is not the same photograph.
+    const std::string prefix = i == 0 ? "" : std::to_string(i) + "-";
+    for (const auto& file : photosIn(common_[i] / "checkerboard")) {
+      checkerboards_.push_back({file, 0, "checkerboard" / fs::path(prefix + file.filename().string())});
+    }
+  }
+}
+
+void FolderPhotographs::choosePlace(int place) {
+  assert(place >= 0 && place < placeCount());
+  place_ = place;
+}
+
+std::optional<CameraIntrinsics> FolderPhotographs::knownCamera() {
+  for (const auto& folder : common_) {
+    const fs::path file = folder / "camera.yaml";
+    if (!fs::exists(file)) continue;
+    const CameraIntrinsics camera = readIntrinsics(file);
+    used_.push_back({file, 0, "camera.yaml"});
+    return camera;
+  }
+  return std::nullopt;
 }
 
 std::optional<Photographs::Named> FolderPhotographs::nextCheckerboard() {
   if (nextCheckerboard_ >= checkerboards_.size()) return std::nullopt;
-  const fs::path& file = checkerboards_[nextCheckerboard_++];
-  return Named{file.string(), read(file)};
+  const Used& next = checkerboards_[nextCheckerboard_++];
+  return Named{next.file.string(), read(next.file, next.relative)};
+}
+
+bool FolderPhotographs::hasFiducials() {
+  return findPhoto(here() / "fiducials").has_value();
 }
 
 Photographs::Named FolderPhotographs::fiducials() {
   const fs::path file = find("fiducials");
-  return {file.string(), read(file)};
+  return {file.string(), read(file, file.filename())};
 }
 
 bool FolderPhotographs::hasProjector(const std::string& projector) {
-  return fs::is_directory(folder_ / projector);
+  return fs::is_directory(here() / projector);
 }
 
 devices::Image8 FolderPhotographs::pattern(const std::string& projector, const ProjectedPattern& pattern) {
-  return read(find(patternPath(projector, pattern)));
+  const fs::path file = find(patternPath(projector, pattern));
+  return read(file, projector / file.filename());
 }
 
 std::string FolderPhotographs::stamp(const std::string& kind) const {
   std::string stamp;
   if (kind == "checkerboard") {
-    for (const auto& file : checkerboards_) stamp += stampOf(file);
-    return stamp + stampOf(folder_ / "camera.yaml");
-  }
-  if (kind == "fiducials") {
-    for (const auto* ending : kEndings) stamp += stampOf(folder_ / (std::string("fiducials") + ending));
+    for (const auto& board : checkerboards_) stamp += stampOf(board.file);
+    for (const auto& folder : common_) stamp += stampOf(folder / "camera.yaml");
     return stamp;
   }
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder_)) {
-    if (!entry.is_directory() || entry.path().filename() == "checkerboard") continue;
-    const auto photos = photosIn(entry.path());
-    files.insert(files.end(), photos.begin(), photos.end());
+  for (const auto& place : places_) {
+    if (kind == "fiducials") {
+      stamp += stampOf(findPhoto(place / "fiducials").value_or(place / "fiducials"));
+      continue;
+    }
+    for (const auto& projector : projectorFolders(place)) {
+      for (const auto& file : photosIn(projector)) stamp += projector.filename().string() + "/" + stampOf(file);
+    }
+    stamp += "\n";
   }
-  std::ranges::sort(files);
-  for (const auto& file : files) stamp += file.parent_path().filename().string() + "/" + stampOf(file);
   return stamp;
 }
 
 void FolderPhotographs::keep() {
-  if (fs::weakly_canonical(folder_) == fs::weakly_canonical(captures_)) return;
-  for (const auto& file : used_) {
-    const fs::path target = captures_ / file.lexically_relative(folder_);
-    fs::create_directories(target.parent_path());
-    fs::copy_file(file, target, fs::copy_options::overwrite_existing);
+  if (fromCaptures()) return;
+  CaptureFolder captures(captures_, placeCount());
+  for (const auto& [file, place, relative] : used_) {
+    const fs::path copy = captures.gathered(place, relative);
+    fs::copy_file(file, copy, fs::copy_options::overwrite_existing);
+    fs::last_write_time(copy, fs::last_write_time(file));  // the same photograph, so that nothing is stale
   }
+  captures.commit();
 }
 
-devices::Image8 FolderPhotographs::read(const fs::path& file) {
+bool FolderPhotographs::fromCaptures() const {
+  return std::ranges::any_of(used_, [this](const Used& used) {
+    return liesIn(used.file, captures_) || liesIn(used.file, CaptureFolder(captures_, 1).gathering());
+  });
+}
+
+devices::Image8 FolderPhotographs::read(const fs::path& file, const fs::path& relative) {
   try {
     devices::Image8 photo = devices::readPhoto(file);
-    used_.push_back(file);
+    used_.push_back({file, place_, relative});
     return photo;
   } catch (const devices::ImageError& error) {
     throw CaptureError(std::string(error.what()) + "; take this photograph again");
@@ -131,11 +149,8 @@ devices::Image8 FolderPhotographs::read(const fs::path& file) {
 }
 
 fs::path FolderPhotographs::find(const fs::path& relativeWithoutEnding) const {
-  for (const auto* ending : kEndings) {
-    fs::path file = folder_ / (relativeWithoutEnding.string() + ending);
-    if (fs::exists(file)) return file;
-  }
-  throw CaptureError((folder_ / relativeWithoutEnding).string() +
+  if (const auto file = findPhoto(here() / relativeWithoutEnding)) return *file;
+  throw CaptureError((here() / relativeWithoutEnding).string() +
                      ".png (or .jpg): this photograph is missing; take it and run again");
 }
 

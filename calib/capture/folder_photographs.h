@@ -8,17 +8,21 @@
 
 namespace pixelflex::calib {
 
-/// Photographs from a folder, by the contract's rule: PROJECTOR/PATTERN.png or .jpg, fiducials.png, checkerboard/*.png,
-/// camera.yaml. Every error names the file.
+/// Photographs from folders, by the contract's rule: PROJECTOR/PATTERN.png or .jpg, fiducials.png, checkerboard/*.png,
+/// camera.yaml. One folder per place of the camera; a single one whose subfolders follow the rule, but not itself,
+/// holds as many places as those. Every error names the file.
 class FolderPhotographs : public Photographs {
  public:
-  /// `captures`: where keep() copies what was used; nothing is copied when it is the same folder. Throws CaptureError
-  /// when there is no such folder.
-  FolderPhotographs(std::filesystem::path folder, std::filesystem::path captures);
+  /// `captures`: where keep() copies what was used; nothing is copied when the photographs lie there already. Throws
+  /// CaptureError when a folder is missing.
+  FolderPhotographs(const std::vector<std::filesystem::path>& folders, std::filesystem::path captures);
 
+  [[nodiscard]] int placeCount() const override { return static_cast<int>(places_.size()); }
+  void choosePlace(int place) override;
   [[nodiscard]] std::optional<CameraIntrinsics> knownCamera() override;
   [[nodiscard]] std::optional<Named> nextCheckerboard() override;
   [[nodiscard]] int checkerboardCount() const override { return static_cast<int>(checkerboards_.size()); }
+  [[nodiscard]] bool hasFiducials() override;
   [[nodiscard]] Named fiducials() override;
   [[nodiscard]] bool hasProjector(const std::string& projector) override;
   [[nodiscard]] devices::Image8 pattern(const std::string& projector, const ProjectedPattern& pattern) override;
@@ -26,14 +30,24 @@ class FolderPhotographs : public Photographs {
   void keep() override;
 
  private:
-  [[nodiscard]] devices::Image8 read(const std::filesystem::path& file);
+  /// A photograph that was read, and its path in captures/ relative to its place.
+  struct Used {
+    std::filesystem::path file;
+    int place = 0;
+    std::filesystem::path relative;
+  };
+  [[nodiscard]] const std::filesystem::path& here() const { return places_[static_cast<std::size_t>(place_)]; }
+  [[nodiscard]] devices::Image8 read(const std::filesystem::path& file, const std::filesystem::path& relative);
   [[nodiscard]] std::filesystem::path find(const std::filesystem::path& relativeWithoutEnding) const;
+  [[nodiscard]] bool fromCaptures() const;
 
-  std::filesystem::path folder_;
+  std::vector<std::filesystem::path> places_;
+  std::vector<std::filesystem::path> common_;  // folders that may hold checkerboard/ and camera.yaml, by precedence
   std::filesystem::path captures_;
-  std::vector<std::filesystem::path> checkerboards_;
+  std::vector<Used> checkerboards_;
   std::size_t nextCheckerboard_ = 0;
-  std::vector<std::filesystem::path> used_;
+  int place_ = 0;
+  std::vector<Used> used_;
 };
 
 }  // namespace pixelflex::calib

@@ -1,5 +1,6 @@
 #include "calib/capture/live_photographs.h"
 
+#include <cassert>
 #include <exception>
 
 #include "devices/image/png_file.h"
@@ -49,13 +50,15 @@ void PhotoWriter::run(const std::stop_token& stop) {
 
 LivePhotographs::LivePhotographs(devices::Camera& camera, std::vector<devices::Projector*> projectors,
                                  devices::Operator& person, std::filesystem::path captures, std::string identity,
-                                 int checkerboardCount)
+                                 int checkerboardCount, int placeCount)
     : camera_(camera),
       projectors_(std::move(projectors)),
       person_(person),
-      captures_(std::move(captures)),
       identity_(std::move(identity)),
-      checkerboardCount_(checkerboardCount) {}
+      checkerboardCount_(checkerboardCount),
+      placeCount_(placeCount) {
+  if (!captures.empty()) captures_.emplace(std::move(captures), placeCount);
+}
 
 LivePhotographs::~LivePhotographs() {
   try {
@@ -64,19 +67,29 @@ LivePhotographs::~LivePhotographs() {
   }
 }
 
+void LivePhotographs::choosePlace(int place) {
+  assert(place >= 0 && place < placeCount_);
+  if (place == place_) return;
+  blankAll();
+  if (!person_.placeCamera(place)) {
+    throw CaptureError("the camera could not be put at its place " + std::to_string(place + 1) + " of " +
+                       std::to_string(placeCount_));
+  }
+  place_ = place;
+}
+
 std::optional<Photographs::Named> LivePhotographs::nextCheckerboard() {
   if (nextCheckerboard_ == 0) blankAll();
   dark_ = false;
   if (!person_.arrange(devices::Scene::kCheckerboard, nextCheckerboard_)) return std::nullopt;
-  const std::filesystem::path relative = "checkerboard/" + std::to_string(++nextCheckerboard_) + ".png";
-  return Named{(captures_ / relative).string(), shoot(relative)};
+  return shoot("checkerboard/" + std::to_string(++nextCheckerboard_) + ".png");
 }
 
 Photographs::Named LivePhotographs::fiducials() {
   blankAll();
   dark_ = false;
   if (!person_.arrange(devices::Scene::kRoomLight, 0)) throw CaptureError("the room lights could not be switched on");
-  return {(captures_ / "fiducials.png").string(), shoot("fiducials.png")};
+  return shoot("fiducials.png");
 }
 
 devices::Image8 LivePhotographs::pattern(const std::string& projector, const ProjectedPattern& pattern) {
@@ -87,7 +100,16 @@ devices::Image8 LivePhotographs::pattern(const std::string& projector, const Pro
   if (lit_ != target) blankAll();
   lit_ = target;
   target->show(pattern.render());
-  return shoot(patternPath(projector, pattern).string() + ".png");
+  return shoot(patternPath(projector, pattern).string() + ".png").photo;
+}
+
+std::string LivePhotographs::stamp(const std::string& kind) const {
+  return placeCount_ > 1 && kind != "checkerboard" ? identity_ + "\nplaces " + std::to_string(placeCount_) : identity_;
+}
+
+void LivePhotographs::keep() {
+  writer_.finish();
+  if (captures_) captures_->commit();
 }
 
 devices::Projector* LivePhotographs::find(const std::string& name) const {
@@ -102,10 +124,12 @@ void LivePhotographs::blankAll() {
   for (devices::Projector* projector : projectors_) projector->blank();
 }
 
-devices::Image8 LivePhotographs::shoot(const std::filesystem::path& relative) {
+Photographs::Named LivePhotographs::shoot(const std::filesystem::path& relative) {
   devices::Image8 photo = camera_.shoot();
-  if (!captures_.empty()) writer_.write(captures_ / relative, photo);
-  return photo;
+  if (!captures_) return {relative.string(), std::move(photo)};
+  const std::filesystem::path file = captures_->gathered(place_, relative);
+  writer_.write(file, photo);
+  return {file.string(), std::move(photo)};
 }
 
 }  // namespace pixelflex::calib

@@ -6,12 +6,14 @@
 #include <exception>
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "calib/capture/capture_folder.h"
 #include "calib/capture/photographs.h"
 #include "devices/camera/camera.h"
 #include "devices/camera/operator.h"
@@ -44,33 +46,38 @@ class PhotoWriter {
 /// The projectors are black again when this ends, whatever happened.
 class LivePhotographs : public Photographs {
  public:
-  /// The devices must outlive this. `identity` describes the set-up for stamp(). Photographs go to `captures` as they
-  /// are taken; nowhere when it is empty.
+  /// The devices must outlive this. `identity` describes the set-up for stamp(). Photographs are gathered beside
+  /// `captures` as they are taken (CaptureFolder) and move there in keep(); nowhere when it is empty.
   LivePhotographs(devices::Camera& camera, std::vector<devices::Projector*> projectors, devices::Operator& person,
-                  std::filesystem::path captures, std::string identity, int checkerboardCount);
+                  std::filesystem::path captures, std::string identity, int checkerboardCount, int placeCount = 1);
   ~LivePhotographs() override;
   LivePhotographs(const LivePhotographs&) = delete;
   LivePhotographs& operator=(const LivePhotographs&) = delete;
 
+  [[nodiscard]] int placeCount() const override { return placeCount_; }
+  /// Asks the person to move the camera unless it stands there; throws CaptureError when they cannot.
+  void choosePlace(int place) override;
   [[nodiscard]] std::optional<Named> nextCheckerboard() override;
   [[nodiscard]] int checkerboardCount() const override { return checkerboardCount_; }
   [[nodiscard]] Named fiducials() override;
   [[nodiscard]] bool hasProjector(const std::string& projector) override { return find(projector) != nullptr; }
   [[nodiscard]] devices::Image8 pattern(const std::string& projector, const ProjectedPattern& pattern) override;
-  [[nodiscard]] std::string stamp(const std::string&) const override { return identity_; }
-  void keep() override { writer_.finish(); }
+  [[nodiscard]] std::string stamp(const std::string& kind) const override;
+  void keep() override;
 
  private:
   [[nodiscard]] devices::Projector* find(const std::string& name) const;
   void blankAll();
-  [[nodiscard]] devices::Image8 shoot(const std::filesystem::path& relative);
+  [[nodiscard]] Named shoot(const std::filesystem::path& relative);
 
   devices::Camera& camera_;
   std::vector<devices::Projector*> projectors_;
   devices::Operator& person_;
-  std::filesystem::path captures_;
+  std::optional<CaptureFolder> captures_;
   std::string identity_;
   int checkerboardCount_;
+  int placeCount_;
+  int place_ = 0;
   int nextCheckerboard_ = 0;
   bool dark_ = false;
   devices::Projector* lit_ = nullptr;

@@ -4,8 +4,10 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "calib/patterns/method.h"
 #include "calib/patterns/projected_pattern.h"
 #include "calib/store/calibration.h"
 #include "devices/image/image.h"
@@ -43,6 +45,8 @@ class Photographs {
   /// How many of them there will be, for progress; 0 when unknown.
   [[nodiscard]] virtual int checkerboardCount() const = 0;
 
+  /// Whether the wall in room light was photographed from this place; of several places some may see no marker.
+  [[nodiscard]] virtual bool hasFiducials() { return true; }
   /// The wall with its markers in room light.
   [[nodiscard]] virtual Named fiducials() = 0;
 
@@ -63,6 +67,7 @@ class Photographs {
 
 /// What each projector must show, and README.txt for the person who photographs it (contract: "Photographs: one rule").
 void writePatterns(const std::filesystem::path& folder,
-                   const std::vector<std::pair<std::string, devices::Size>>& projectors);
+                   const std::vector<std::pair<std::string, devices::Size>>& projectors,
+                   Method method = Method::kBlobs);
 
 }  // namespace pixelflex::calib

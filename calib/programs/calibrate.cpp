@@ -68,11 +68,13 @@ Source simulatedSource(const fs::path& folder, const Wall& wall, const Arguments
 Source openSource(const fs::path& folder, const Wall& wall, const Arguments& arguments) {
   const fs::path captures = folder / "captures";
   if (!arguments.photos.empty()) {
-    return {nullptr, std::make_unique<FolderPhotographs>(arguments.photos, captures), false};
+    return {nullptr, std::make_unique<FolderPhotographs>(std::vector<fs::path>{arguments.photos}, captures), false};
   }
   if (wall.camera.source == "sim") return simulatedSource(folder, wall, arguments);
   if (wall.camera.source == "photos") {
-    if (fs::is_directory(captures)) return {nullptr, std::make_unique<FolderPhotographs>(captures, captures), false};
+    if (fs::is_directory(captures)) {
+      return {nullptr, std::make_unique<FolderPhotographs>(std::vector{captures}, captures), false};
+    }
     throw ProcedureError(folder.string() +
                          ": camera: source is photos: give --photos DIR (--patterns DIR tells what to photograph)");
   }

@@ -98,7 +98,7 @@ void photograph(int projectors, bool tiny, const fs::path& folder) {
 
 void solve(int projectors, const fs::path& folder) {
   const Wall wall = loadWall(folder);
-  FolderPhotographs photographs(folder / "captures", folder / "captures");
+  FolderPhotographs photographs({folder / "captures"}, folder / "captures");
   TimedProgress progress;
   const auto begin = Clock::now();
   Procedure procedure(folder, wall, {}, &photographs, progress);
