@@ -27,8 +27,10 @@ constexpr std::array kRemarks = {
            "  # or {cylinder: {radius: 3000}} with a vertical axis (the display space is the unrolled screen).\n"},
     Remark{
         "  fiducials:",
-        "  # Four or more markers and the measured place of each one's centre. `aruco` is an id of the printed\n"
-        "  # dictionary DICT_4X4_50; instead of it `camera: [x, y]` gives a pixel of the photograph fiducials.png.\n"},
+        "  # Four or more markers, six or more on a cylinder, and the measured place of each one's centre. `aruco` is\n"
+        "  # an id of the printed dictionary DICT_4X4_50; instead of it `camera: [x, y]` gives a pixel of the "
+        "photograph\n"
+        "  # fiducials.png.\n"},
     Remark{"camera:",
            "\n# Where photographs of the wall come from: photos (files taken with any camera), v4l2:/dev/video0,\n"
            "# aravis:NAME, sim, or none (a wall that needs no camera).\n"},

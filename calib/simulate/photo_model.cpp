@@ -55,7 +55,6 @@ PhotoModel::PhotoModel(const Stage& stage, const Pose& place)
   const ImageF lit = unlitWall(stage_.rig().room.lit);
   arrange(Scene::kDark, 0);
   setExposures(wall_, lit);
-  exposure_ = darkExposure_;
 }
 
 ImageF PhotoModel::leakOfAll() const {
@@ -95,6 +94,7 @@ void PhotoModel::setExposures(const ImageF& dark, const ImageF& lit) {
   darkExposure_ = 0.85 / std::max(kFaint, brightest);
   const Levels levels = levelsOf(lit, room_.reflectance);
   litExposure_ = std::min(0.75 / std::max(kFaint, levels.white), 0.95 / std::max(kFaint, levels.strongest));
+  exposure_ = darkExposure_;  // the first scene is dark
 }
 
 void PhotoModel::arrange(Scene scene, int pose) {

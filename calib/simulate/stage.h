@@ -16,6 +16,7 @@ namespace pixelflex::calib {
 class Stage {
  public:
   explicit Stage(Rig rig);
+  ~Stage() = default;
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 

@@ -142,7 +142,7 @@ TEST(SimulateCylinder, PixelToWallToPixelIsTheSame) {
     const SimulatedWall wall(rig);
     for (std::size_t i = 0; i < wall.projectorCount(); ++i) {
       for (int k = 0; k < 99; ++k) {
-        const glm::dvec2 pixel(192.0 * (k % 11), 135.0 * (k / 11));
+        const glm::dvec2 pixel(192 * (k % 11), 135 * (k / 11));
         const auto onWall = wall.wallFromProjector(i, pixel);
         if (radius < 0 && !onWall) continue;  // aimed for the hollow screen, some pass by the bulging one
         ASSERT_TRUE(onWall);
