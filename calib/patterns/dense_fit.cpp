@@ -9,7 +9,7 @@ namespace pixelflex::calib {
 namespace {
 
 constexpr std::size_t kFewestPairs = 24;
-constexpr double kMostLeverage = 0.6;     // variance of the fit at the point, in those of one pixel
+constexpr double kMostLeverage = 1.0;     // variance of the fit at the point, in those of one pixel
 constexpr double kFarOut = 4;             // robust deviations
 constexpr double kLeastDeviation = 0.01;  // camera pixels: noise alone never makes outliers of good pixels
 constexpr int kRounds = 6;

@@ -10,7 +10,7 @@
 namespace pixelflex::calib {
 namespace {
 
-constexpr double kWindow = 10;     // camera pixels on each side of a point that carry its fit, at least
+constexpr double kWindow = 12;     // camera pixels on each side of a point that carry its fit, at least
 constexpr double kMostJump = 0.3;  // of the step between neighbours
 
 /// Decoded pixels sorted into the cells between lattice points; the first and last cells reach to the frame's border.

@@ -6,132 +6,16 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <limits>
-#include <numbers>
-#include <optional>
 #include <thread>
+
+#include "calib/patterns/dense_axis_reader.h"
 
 namespace pixelflex::calib {
 namespace {
 
 constexpr std::uint8_t kSaturatedCode = 250;
-constexpr double kLitShare = 0.15;   // of the brightest: pixels with more belong to the frame
-constexpr float kLeastWave = 0.08F;  // amplitude over white; sharp it is 0.42
-constexpr float kLeastWaveCodes = 0.8F;
-constexpr float kMostRest = 0.08F;         // what is no wave, RMS over white
-constexpr float kRestCodes = 1.5F;         // likewise, from noise
-constexpr float kTossUp = 0.15F;           // a bit so close to one half may be either
-constexpr float kMostDisagreement = 0.4F;  // of the period, between wave and the middle of the coded cell
-constexpr float kReach = 2.5F;             // camera pixels from the frame's border that see the dark beyond it
-
-/// How far the waves lie from the middles of the coded cells: spread evenly over half a period about zero, unless the
-/// camera moved in between.
-class Offsets {
- public:
-  /// In periods, -0.5..0.5.
-  void add(float offset) {
-    const int bin = static_cast<int>(std::floor((offset + 0.5F) * kBins));
-    ++bins_.at(static_cast<std::size_t>(std::clamp(bin, 0, kBins - 1)));
-  }
-  Offsets& operator+=(const Offsets& other) {
-    for (std::size_t i = 0; i < bins_.size(); ++i) bins_[i] += other.bins_[i];
-    return *this;
-  }
-  /// The mean on the circle, in periods.
-  [[nodiscard]] double mean() const {
-    double byCosine = 0, bySine = 0;
-    for (std::size_t i = 0; i < bins_.size(); ++i) {
-      const double angle = 2 * std::numbers::pi * ((static_cast<double>(i) + 0.5) / kBins - 0.5);
-      byCosine += static_cast<double>(bins_[i]) * std::cos(angle);
-      bySine += static_cast<double>(bins_[i]) * std::sin(angle);
-    }
-    return std::atan2(bySine, byCosine) / (2 * std::numbers::pi);
-  }
-
- private:
-  static constexpr int kBins = 64;
-  std::array<std::int64_t, kBins> bins_{};
-};
-
-enum class Reading { kKnown, kFaint, kContradicting };
-
-/// Sums over the three channels of the photographs' pixels: codes times three.
-struct PixelCodes {
-  const std::vector<const std::uint8_t*>& rows;
-  std::size_t offset;
-  [[nodiscard]] float at(std::size_t photo) const {
-    const std::uint8_t* code = rows[photo] + offset;
-    return static_cast<float>(code[0] + code[1] + code[2]);
-  }
-};
-
-/// One coordinate from one pixel's codes.
-class AxisReader {
- public:
-  AxisReader(const DenseAxis& axis, std::size_t firstCode, std::size_t firstWave)
-      : axis_(axis), firstCode_(firstCode), firstWave_(firstWave) {
-    for (std::size_t i = 0; i < kPhaseSteps; ++i) {
-      const double angle = 2 * std::numbers::pi * static_cast<double>(i) / kPhaseSteps;
-      cosine_.at(i) = static_cast<float>(std::cos(angle));
-      sine_.at(i) = static_cast<float>(std::sin(angle));
-    }
-  }
-
-  [[nodiscard]] Reading read(const PixelCodes& codes, float black, float range, float& position) {
-    float turns = 0;
-    const Reading wave = readWave(codes, range, turns);
-    if (wave != Reading::kKnown) return wave;
-    const std::optional<int> cell = readCell(codes, black, range);
-    if (!cell) return Reading::kContradicting;
-    const auto period = static_cast<float>(axis_.period());
-    const float middle = (static_cast<float>(*cell) + 0.5F) / 2;  // in periods
-    const float offset = turns - middle - std::round(turns - middle);
-    offsets_.add(offset);
-    position = period * (middle + offset);
-    const bool inFrame = position > -period && position < static_cast<float>(axis_.length()) + period;
-    return inFrame && std::abs(offset) <= kMostDisagreement ? Reading::kKnown : Reading::kContradicting;
-  }
-  [[nodiscard]] const Offsets& offsets() const { return offsets_; }
-
- private:
-  [[nodiscard]] Reading readWave(const PixelCodes& codes, float range, float& turns) const {
-    float mean = 0, square = 0, byCosine = 0, bySine = 0;
-    for (std::size_t i = 0; i < kPhaseSteps; ++i) {
-      const float code = codes.at(firstWave_ + i);
-      mean += code / kPhaseSteps;
-      square += code * code / kPhaseSteps;
-      byCosine += code * cosine_[i] * 2 / kPhaseSteps;
-      bySine += code * sine_[i] * 2 / kPhaseSteps;
-    }
-    const float power = byCosine * byCosine + bySine * bySine;
-    const float least = std::max(kLeastWave * range, 3 * kLeastWaveCodes);
-    if (power < least * least) return Reading::kFaint;
-    const float rest = square - mean * mean - power / 2;
-    const float mostRest = kMostRest * range + 3 * kRestCodes;
-    if (rest > mostRest * mostRest) return Reading::kContradicting;
-    turns = std::atan2(bySine, byCosine) / (2 * std::numbers::pi_v<float>);
-    return Reading::kKnown;
-  }
-
-  /// Along a Gray code at most one bit is undecided, and the wave decides between the two cells.
-  [[nodiscard]] std::optional<int> readCell(const PixelCodes& codes, float black, float range) const {
-    int binary = 0;
-    int undecided = 0;
-    for (int bit = 0; bit < axis_.bits(); ++bit) {
-      const float light = (codes.at(firstCode_ + static_cast<std::size_t>(bit)) - black) / range;
-      if (std::abs(light - 0.5F) < kTossUp) ++undecided;
-      const int gray = light > 0.5F ? 1 : 0;
-      binary = 2 * binary + (gray ^ (binary & 1));
-    }
-    return undecided > 1 ? std::nullopt : std::optional(binary);
-  }
-
-  const DenseAxis& axis_;
-  std::size_t firstCode_;
-  std::size_t firstWave_;
-  std::array<float, kPhaseSteps> cosine_{};
-  std::array<float, kPhaseSteps> sine_{};
-  Offsets offsets_;
-};
+constexpr double kLitShare = 0.15;  // of the brightest: pixels with more belong to the frame
+constexpr float kReach = 2.5F;      // camera pixels from the frame's border that see the dark beyond it
 
 /// Reads rows of pixels; one per thread.
 class RowReader {
@@ -148,8 +32,8 @@ class RowReader {
     for (const auto& photo : photos_) rows_.push_back(photo.row(y).data());
     for (int x = 0; x < pixels.points.width(); ++x) readPixel(x, y, pixels.points);
   }
-  [[nodiscard]] const Offsets& xOffsets() const { return x_.offsets(); }
-  [[nodiscard]] const Offsets& yOffsets() const { return y_.offsets(); }
+  [[nodiscard]] const WaveOffsets& xOffsets() const { return x_.offsets(); }
+  [[nodiscard]] const WaveOffsets& yOffsets() const { return y_.offsets(); }
   void addCountsTo(DensePixels& pixels) const {
     pixels.lit += lit_;
     pixels.saturated += saturated_;
@@ -241,8 +125,8 @@ DensePixels readPixels(const std::vector<devices::Image8>& photos, const DenseLa
   }
   upper.addCountsTo(pixels);
   lower.addCountsTo(pixels);
-  pixels.shift = {layout.x().period() * (Offsets(upper.xOffsets()) += lower.xOffsets()).mean(),
-                  layout.y().period() * (Offsets(upper.yOffsets()) += lower.yOffsets()).mean()};
+  pixels.shift = {layout.x().period() * (WaveOffsets(upper.xOffsets()) += lower.xOffsets()).mean(),
+                  layout.y().period() * (WaveOffsets(upper.yOffsets()) += lower.yOffsets()).mean()};
   return pixels;
 }
 
