@@ -19,5 +19,7 @@ pixelflex_test(capture_test LABEL unit
 pixelflex_test(estimate_test LABEL unit SOURCES unit/estimate_test.cpp unit/estimate_fit_test.cpp LINK pixelflex_estimate pixelflex_patterns)
 pixelflex_test(photometric_test LABEL unit SOURCES unit/photometric_test.cpp LINK pixelflex_photometric)
 pixelflex_test(report_test LABEL unit
-  SOURCES unit/report_seams_test.cpp
-  LINK pixelflex_report pixelflex_simulate)
+  SOURCES
+    unit/report_heat_test.cpp unit/report_page_test.cpp unit/report_seams_test.cpp unit/summary_verdicts_test.cpp
+    support_calibration/plain_wall.cpp support_calibration/plain_wall.h
+  LINK pixelflex_report pixelflex_simulate pixelflex_test_support)

@@ -201,10 +201,10 @@ std::string verdict(const Summary& summary, const std::vector<Finding>& findings
     return good + ".";
   }
   const Finding& first = findings.front();
-  const std::string opening = bad > 0 ? "Not good yet: " : "Usable, but ";
+  const std::string opening = bad > 0 ? "Not good yet: " : "Usable, but look at ";
   const std::size_t others = findings.size() - 1;
-  std::string rest = others == 0 ? "" : fmt::format("; and {} more", others);
-  return opening + first.where + ": " + first.what + rest + ".";
+  const std::string rest = others == 0 ? "" : fmt::format(", and {} more", others);
+  return opening + first.where + " (" + first.what + ")" + rest + ".";
 }
 
 }  // namespace pixelflex::calib

@@ -66,7 +66,7 @@ std::string drawArrows(const std::vector<Arrow>& arrows, double magnification, d
 
 std::string drawRule(devices::Size resolution, double magnification, double unit) {
   const double error = roundedDown(0.2 * resolution.width / magnification);
-  const double y = resolution.height + 8 * unit;
+  const double y = resolution.height + 10 * unit;
   return fmt::format(
       "<path class=\"arrow\" d=\"M0 {0:.1f}v{1:.1f}M0 {2:.1f}h{3:.1f}M{3:.1f} {0:.1f}v{1:.1f}\" "
       "stroke-width=\"{4:.2f}\"/><text x=\"{5:.1f}\" y=\"{6:.1f}\" font-size=\"{7:.2f}\">{8} px, enlarged {9} "
@@ -90,7 +90,7 @@ std::string drawResiduals(const ProjectorCalibration& projector) {
   const auto arrows = arrowsOf(projector);
   const double magnification = magnificationFor(arrows, projector.resolution);
   const double unit = projector.resolution.width / 100.0;
-  std::string svg = openFrame(projector.resolution, 4 * unit, 11 * unit, "Residuals of " + projector.name);
+  std::string svg = openFrame(projector.resolution, 6 * unit, 13 * unit, "Residuals of " + projector.name);
   if (magnification <= 0) {
     return svg + fmt::format("<text x=\"0\" y=\"{:.1f}\" font-size=\"{:.2f}\">exact: nothing is left</text></svg>\n",
                              projector.resolution.height + 8 * unit, 3.8 * unit);
@@ -99,7 +99,7 @@ std::string drawResiduals(const ProjectorCalibration& projector) {
   return svg + drawRule(projector.resolution, magnification, unit) + "</svg>\n";
 }
 
-std::string drawDensity(const ProjectorCalibration& projector, const Display& display) {
+DensityDrawing drawDensity(const ProjectorCalibration& projector, const Display& display) {
   const ProjectorMapping mapping(projector);
   const double perUnit = desktopPixelsPerUnit(display);
   const glm::dvec2 size(projector.resolution.width, projector.resolution.height);
@@ -107,10 +107,10 @@ std::string drawDensity(const ProjectorCalibration& projector, const Display& di
     const double density = mapping.density(point);
     return density > 0 ? std::optional(density / perUnit) : std::nullopt;
   });
-  if (map.empty()) return "";
+  if (map.empty()) return {};
   const double unit = size.x / 100;
-  const std::string label = fmt::format("Density of {}: {:.2f} to {:.2f}", projector.name, map.least(), map.most());
-  return openFrame(projector.resolution, 0, 0, label) + map.svg(unit / 2) + "</svg>\n";
+  const std::string open = openFrame(projector.resolution, 0, 0, "Density of " + projector.name);
+  return {open + map.svg(unit / 2) + "</svg>\n", map.least(), map.most()};
 }
 
 std::string drawMask(const devices::Image16& mask) {
@@ -124,7 +124,7 @@ std::string drawMask(const devices::Image16& mask) {
       small.at(column, row) = static_cast<std::uint8_t>(mask.at(x, y) * 255 / 65535);
     }
   }
-  return fmt::format("<img class=\"frame\" src=\"{}\" width=\"{}\" height=\"{}\" alt=\"Blend mask\">\n",
+  return fmt::format("<img class=\"frame\" src=\"{}\" width=\"{}\" height=\"{}\" alt=\"Blend mask\"/>\n",
                      pictureUri(small), kColumns, rows);
 }
 

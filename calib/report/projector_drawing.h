@@ -12,8 +12,12 @@ namespace pixelflex::calib {
 /// length in projector pixels.
 [[nodiscard]] std::string drawResiduals(const ProjectorCalibration& projector);
 
-/// Projector pixels per desktop pixel over one projector's frame.
-[[nodiscard]] std::string drawDensity(const ProjectorCalibration& projector, const Display& display);
+/// Projector pixels per desktop pixel over one projector's frame, and between what bounds they lie.
+struct DensityDrawing {
+  std::string svg;  // empty where the model says nothing
+  double least = 0, most = 0;
+};
+[[nodiscard]] DensityDrawing drawDensity(const ProjectorCalibration& projector, const Display& display);
 
 /// A mask as a small grey picture.
 [[nodiscard]] std::string drawMask(const devices::Image16& mask);

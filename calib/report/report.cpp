@@ -157,18 +157,29 @@ class ReportPage {
         "<article class=\"sheet\"><header><h3><span class=\"chip\" style=\"background:{}\"></span>{}</h3>{}",
         colourOf(index), escaped(p.name), badge(p.name, findings_));
     if (projector == nullptr) return html + "<span class=\"sub\">not calibrated</span></header></article>\n";
-    html += fmt::format("<span class=\"sub\">{} × {}</span></header>\n<div class=\"figures\">\n",
-                        projector->resolution.width, projector->resolution.height);
+    html += fmt::format("<span class=\"sub\">{} × {}</span></header>\n{}<div class=\"figures\">\n",
+                        projector->resolution.width, projector->resolution.height, remarks(p.name));
     const std::string photo = drawPhotograph(folder_, calibration_, *projector);
     const std::string residuals = figure(photo.empty() ? "third" : "high", drawResiduals(*projector),
                                          "Residuals: from where a point was shown to where the model has it.");
     html += figure("wide", photo, photoCaption(p.quality)) + residuals;
     html += "<div class=\"third\">" + numbers(p) + "</div>\n";
     if (calibration_.display) {
-      html += figure("third", drawDensity(*projector, *calibration_.display), "Density over the frame.");
+      const auto density = drawDensity(*projector, *calibration_.display);
+      html += figure("third", density.svg,
+                     fmt::format("Density: {:.2f} to {:.2f} px per desktop pixel.", density.least, density.most));
     }
     html += figure("third", maskOf(folder_, *projector), "Blend mask.");
     return html + "</div>\n<p class=\"sub\">" + modelOf(projector->model) + "</p></article>\n";
+  }
+
+  /// What is not good about one projector; cause and cure stand in the verdict above.
+  [[nodiscard]] std::string remarks(const std::string& name) const {
+    std::string html;
+    for (const auto& finding : findings_) {
+      if (finding.where == name) html += "<p class=\"remark\">" + escaped(finding.what) + ".</p>\n";
+    }
+    return html;
   }
 
   const fs::path& folder_;

@@ -23,7 +23,7 @@ h1 { font-size: clamp(1.5rem, 4vw, 2.1rem); line-height: 1.2; letter-spacing: -.
 h2 { font-size: 1.25rem; letter-spacing: -.01em; margin: 2.6rem 0 .7rem; break-after: avoid; }
 h3 { font-size: 1.1rem; margin: 0; }
 p { margin: .4rem 0; max-width: 46rem; overflow-wrap: break-word; }
-.sub, figcaption, .hint { color: var(--soft); font-size: .875rem; }
+.sub, figcaption { color: var(--soft); font-size: .875rem; }
 .sheet { background: var(--paper); border: 1px solid var(--line); border-radius: 10px; padding: clamp(.7rem, 2vw, 1.2rem); }
 .verdict { margin: 1.2rem 0 0; padding: .9rem 1.1rem; border-left: 6px solid; border-radius: 10px;
   background: var(--paper); font-size: 1.1rem; font-weight: 600; max-width: none; }
@@ -39,6 +39,11 @@ dt, dd, td, th { font-variant-numeric: tabular-nums; }
   padding: .6rem .9rem; break-inside: avoid; overflow-wrap: anywhere; }
 .findings li.notice { border-left-color: var(--notice); } .findings li.bad { border-left-color: var(--bad); }
 .findings p { margin: .15rem 0; max-width: none; }
+.why { display: grid; grid-template-columns: 3.6rem 1fr; gap: 0 .4rem; margin: .2rem 0 0; font-size: .875rem; color: var(--soft); }
+.why dt { font-weight: 600; } .why dd { margin: 0; }
+code { font: .92em ui-monospace, "DejaVu Sans Mono", monospace; color: var(--ink); background: var(--faint);
+  padding: .05em .35em; border-radius: 4px; white-space: nowrap; }
+.remark { border-left: 3px solid var(--notice); padding-left: .6rem; margin: 0 0 .4rem; font-size: .875rem; max-width: none; }
 .tag { font-size: .72rem; font-weight: 700; text-transform: uppercase; letter-spacing: .05em; margin-right: .5em; }
 .tag.good { color: var(--good); } .tag.notice { color: var(--notice); } .tag.bad { color: var(--bad); }
 .scroll { overflow-x: auto; }
@@ -47,7 +52,7 @@ th, td { padding: .38rem .65rem; text-align: right; white-space: nowrap; }
 th { font-weight: 600; color: var(--soft); border-bottom: 1.5px solid var(--line); vertical-align: bottom; font-size: .8rem; }
 tbody th { color: inherit; border: 0; font-size: inherit; vertical-align: middle; }
 tbody tr + tr > * { border-top: 1px solid var(--faint); }
-th:first-child, td.words, th.words { text-align: left; } td.words { white-space: normal; min-width: 9rem; }
+th:first-child, td.words, th.words { text-align: left; } td.words { white-space: normal; min-width: 15rem; }
 tr { break-inside: avoid; } thead { display: table-header-group; }
 .chip { display: inline-block; width: .75em; height: .75em; border-radius: 3px; margin-right: .45em; }
 figure { margin: 0; break-inside: avoid; } figcaption { margin-top: .35rem; }
@@ -77,15 +82,16 @@ footer { margin-top: 2.5rem; color: var(--soft); font-size: .8rem; }
 @media (max-width: 52rem) {
   .figures > .wide, .figures > .high { grid-column: span 12; } .figures > .third { grid-column: span 6; }
 }
-@media (max-width: 30rem) { .figures > .third { grid-column: span 12; } th, td { padding: .35rem .4rem; } }
+@media (max-width: 30rem) { code { white-space: normal; } .figures > .third { grid-column: span 12; } th, td { padding: .35rem .4rem; } }
 @page { size: A4; margin: 14mm 13mm; }
 @media print {
   :root { color-scheme: light;
     --ink: #111820; --soft: #4b5563; --paper: #ffffff; --page: #ffffff; --line: #c9ced6; --faint: #f0f2f5;
     --good: #1f7a4d; --notice: #a86200; --bad: #b3261e; --arrow: #c2331f; --foot: #8b95a3; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
-  body { font-size: 10pt; } main { max-width: none; padding: 0; }
-  .scroll { overflow: visible; } table { font-size: 8.2pt; } th, td { padding: .2rem .3rem; }
+  html { font-size: 9.5pt; } body { font-size: 1rem; } main { max-width: none; padding: 0; }
+  .scroll { overflow: visible; } table { font-size: 7.6pt; } th { font-size: 7pt; } th, td { padding: .2rem .25rem; }
+  td.words { min-width: 6rem; }
   svg.wall { max-height: 105mm; }
   h2 { margin-top: 1.4rem; } .part { break-inside: avoid; } .projectors > article { break-inside: avoid; }
   .figures > .wide { grid-column: span 7; } .figures > .high { grid-column: span 5; }

@@ -31,6 +31,13 @@ std::string openTable(const std::string& label, const std::vector<std::string>& 
 
 constexpr const char* kCloseTable = "</tbody></table></div>\n";
 
+/// A cure's command, which stands at its end, set apart so that it is not broken across lines.
+std::string withCommand(const std::string& cure) {
+  const auto begin = cure.find("pixelflex ");
+  if (begin == std::string::npos) return escaped(cure) + ".";
+  return escaped(cure.substr(0, begin)) + "<code>" + escaped(cure.substr(begin)) + "</code>";
+}
+
 const char* wordOf(Severity severity) {
   return severity == Severity::kBad ? "bad" : "notice";
 }
@@ -73,9 +80,9 @@ std::string findingsHtml(const std::vector<Finding>& findings) {
   for (const auto& finding : findings) {
     html += fmt::format(
         "<li class=\"{0}\"><p><span class=\"tag {0}\">{0}</span><strong>{1}</strong>: {2}.</p>"
-        "<p class=\"hint\"><b>Cause</b> {3}. <b>Cure</b> {4}.</p></li>\n",
+        "<dl class=\"why\"><dt>Cause</dt><dd>{3}.</dd><dt>Cure</dt><dd>{4}</dd></dl></li>\n",
         wordOf(finding.severity), escaped(finding.where), escaped(finding.what), escaped(finding.cause),
-        escaped(finding.cure));
+        withCommand(finding.cure));
   }
   return html + "</ul>\n";
 }
