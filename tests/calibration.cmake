@@ -16,7 +16,7 @@ pixelflex_test(patterns_dense_test LABEL unit
 pixelflex_test(capture_test LABEL unit
   SOURCES unit/capture_folder_test.cpp unit/capture_live_test.cpp support/temporary_folder.cpp
   LINK pixelflex_capture)
-pixelflex_test(estimate_test LABEL unit SOURCES unit/estimate_test.cpp unit/estimate_fit_test.cpp LINK pixelflex_estimate pixelflex_patterns)
+pixelflex_test(estimate_test LABEL unit SOURCES unit/estimate_test.cpp unit/estimate_fit_test.cpp unit/estimate_joint_test.cpp LINK pixelflex_estimate pixelflex_patterns)
 pixelflex_test(photometric_test LABEL unit SOURCES unit/photometric_test.cpp LINK pixelflex_photometric)
 pixelflex_test(report_test LABEL unit
   SOURCES

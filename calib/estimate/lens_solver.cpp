@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "calib/estimate/collineation.h"
-#include "calib/geometry/brown_lens.h"
+#include "calib/estimate/lens_residual.h"
 #include "calib/geometry/projector_mapping.h"
 
 namespace pixelflex::calib {
@@ -26,17 +26,10 @@ struct SampleResidual {
   template <class T>
   bool operator()(const T* h, const T* depth, const T* radial, const T* tangential, const T* centre,
                   T* residual) const {
-    const T w = h[6] * onScreen.x + h[7] * onScreen.y + T(1) + depth[2] * onScreen.z;
-    const T x = (h[0] * onScreen.x + h[1] * onScreen.y + h[2] + depth[0] * onScreen.z) / w;
-    const T y = (h[3] * onScreen.x + h[4] * onScreen.y + h[5] + depth[1] * onScreen.z) / w;
-    // The view maps to pixels about the frame's middle; the lens works about its own centre.
-    const T cx = centre[0] / scale;
-    const T cy = centre[1] / scale;
-    T dx;
-    T dy;
-    BrownLens::distort(T(x - cx), T(y - cy), radial, tangential, &dx, &dy);
-    residual[0] = (dx + cx) * scale - inProjector.x;
-    residual[1] = (dy + cy) * scale - inProjector.y;
+    const T point[3] = {T(onScreen.x), T(onScreen.y), T(onScreen.z)};
+    lensPixel(h, depth, radial, tangential, centre, scale, point, residual);
+    residual[0] -= inProjector.x;
+    residual[1] -= inProjector.y;
     return true;
   }
 };

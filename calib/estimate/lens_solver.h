@@ -25,6 +25,9 @@ class LensSolver {
   /// pixels, rms over a lattice of the frame.
   [[nodiscard]] double deviation() const;
 
+  /// Over all samples, projector pixels: outliers do not count.
+  [[nodiscard]] double medianError() const;
+
  private:
   /// Ceres blocks. The view takes screen points of unit spread to pixels about the frame's middle, over the scale.
   struct Unknowns {
@@ -39,8 +42,6 @@ class LensSolver {
   [[nodiscard]] glm::dvec3 normalised(glm::dvec2 pointInWall) const;
   void startFromHomography();
   void minimise(std::span<const int> fold, int leftOut, double huber);
-  [[nodiscard]] double medianError() const;
-
   std::span<const Sample> samples_;
   std::optional<BentScreen> screen_;
   devices::Size resolution_;
