@@ -17,13 +17,8 @@ constexpr double kFaintestBlob = 6;  // codes above its surroundings
 class DriftSearch {
  public:
   DriftSearch(const devices::Image8& photo, const BlobLayout& layout, const CameraMapping& camera,
-              const Homography& wallFromCamera, const ProjectorMapping& projector)
-      : photo_(photo),
-        layout_(layout),
-        camera_(camera),
-        wallFromCamera_(wallFromCamera),
-        cameraFromWall_(wallFromCamera.inverse()),
-        projector_(projector) {
+              const ScreenView& screen, const ProjectorMapping& projector)
+      : photo_(photo), layout_(layout), camera_(camera), screen_(screen), projector_(projector) {
     const glm::dvec2 step = layout.centre(kBlobColumns + 2) - layout.centre(1);
     reach_ = 0.5 * std::min(step.x, step.y);
   }
@@ -50,10 +45,11 @@ class DriftSearch {
   [[nodiscard]] std::optional<glm::dvec2> rawFromProjector(glm::dvec2 pointInProjector) const {
     const auto inWall = projector_.wallFromProjector(pointInProjector);
     if (!inWall) return std::nullopt;
-    return camera_.rawFromUndistorted(cameraFromWall_.map(*inWall));
+    return camera_.rawFromUndistorted(screen_.imageFromWall(*inWall));
   }
   [[nodiscard]] std::optional<glm::dvec2> projectorFromRaw(glm::dvec2 pointInRaw) const {
-    return projector_.projectorFromWall(wallFromCamera_.map(camera_.undistortedFromRaw(pointInRaw)));
+    const auto inWall = screen_.wallFromImage(camera_.undistortedFromRaw(pointInRaw));
+    return inWall ? projector_.projectorFromWall(*inWall) : std::nullopt;
   }
 
   [[nodiscard]] std::vector<LightSample> samplesAround(glm::dvec2 centre) const {
@@ -80,8 +76,7 @@ class DriftSearch {
   const devices::Image8& photo_;
   const BlobLayout& layout_;
   const CameraMapping& camera_;
-  const Homography& wallFromCamera_;
-  Homography cameraFromWall_;
+  const ScreenView& screen_;
   const ProjectorMapping& projector_;
   double reach_ = 0;
 };
@@ -95,8 +90,8 @@ double median(std::vector<double> values) {
 }  // namespace
 
 Drift measureDrift(const devices::Image8& photo, const BlobLayout& layout, const CameraMapping& camera,
-                   const Homography& wallFromCamera, const ProjectorMapping& projector) {
-  const DriftSearch search(photo, layout, camera, wallFromCamera, projector);
+                   const ScreenView& screen, const ProjectorMapping& projector) {
+  const DriftSearch search(photo, layout, camera, screen, projector);
   Drift drift;
   std::vector<double> xs;
   std::vector<double> ys;

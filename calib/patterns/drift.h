@@ -4,6 +4,7 @@
 
 #include "calib/geometry/camera_mapping.h"
 #include "calib/geometry/projector_mapping.h"
+#include "calib/geometry/screen_view.h"
 #include "calib/patterns/blob_pattern.h"
 #include "devices/image/image.h"
 
@@ -19,8 +20,8 @@ struct Drift {
   double maximum = 0;
 };
 
-/// From one photograph of all blobs. `wallFromCamera` takes undistorted camera pixels.
+/// From one photograph of all blobs. `screen`: as the undistorted camera sees it.
 [[nodiscard]] Drift measureDrift(const devices::Image8& photo, const BlobLayout& layout, const CameraMapping& camera,
-                                 const Homography& wallFromCamera, const ProjectorMapping& projector);
+                                 const ScreenView& screen, const ProjectorMapping& projector);
 
 }  // namespace pixelflex::calib

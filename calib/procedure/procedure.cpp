@@ -1,52 +1,28 @@
 #include "calib/procedure/procedure.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <future>
-#include <memory>
 #include <utility>
 
-#include "calib/estimate/fiducials.h"
 #include "calib/estimate/intrinsics.h"
-#include "calib/estimate/projector_fit.h"
-#include "calib/geometry/display_area.h"
-#include "calib/geometry/patch_mesh.h"
+#include "calib/geometry/projector_mapping.h"
+#include "calib/patterns/blob_pattern.h"
 #include "calib/photometric/mask.h"
 #include "calib/photometric/response_curve.h"
+#include "calib/procedure/camera_step.h"
+#include "calib/procedure/display_step.h"
 #include "calib/procedure/fingerprint.h"
+#include "calib/procedure/geometry_step.h"
+#include "calib/procedure/surface_step.h"
+#include "calib/procedure/wording.h"
 #include "calib/store/yaml_reader.h"
 #include "devices/image/atomic_file.h"
 #include "devices/image/png_file.h"
 
 namespace pixelflex::calib {
-namespace {
-
-/// Below this many of the hundred blobs a projector counts as not found.
-constexpr int kFewestBlobs = 60;
-/// Saturated share of the lit area in the photograph of white from which the photographs are refused.
-constexpr double kMostSaturated = 0.05;
-
-std::string rounded(double value, int digits) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return text.data();
-}
-
-std::string sizeText(devices::Size size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
-std::string count(std::size_t number, const std::string& noun) {
-  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
-}
-
-}  // namespace
 
 struct Procedure::Step {
   std::string name;
-  std::string (Procedure::*run)(const ProcedureOptions&);
+  std::string (Procedure::*run)();
 };
 
 const std::vector<Procedure::Step>& Procedure::steps() {
@@ -71,10 +47,14 @@ Procedure::Procedure(std::filesystem::path folder, const Wall& wall, Calibration
       nudges_(loadNudges(folder_)) {}
 
 std::vector<std::string> Procedure::run(const ProcedureOptions& options) {
-  if (wall_.surface.shape != SurfaceShape::kPlanar) {
-    throw ProcedureError("surface: only planar walls can be calibrated by this version; set shape: planar");
+  options_ = options;
+  method_ = chooseMethod();
+  if (wall_.surface.shape != SurfaceShape::kPlanar && photographs_ != nullptr && photographs_->placeCount() > 1) {
+    throw ProcedureError(
+        "several camera places need a flat wall (shape: planar) in this version; photograph a bent "
+        "screen from one place");
   }
-  if (!options.only.empty()) return runOnly(options);
+  if (!options.only.empty()) return runOnly();
   std::vector<std::string> ran;
   for (const auto& step : steps()) {
     const bool asked = std::ranges::find(options.steps, step.name) != options.steps.end();
@@ -82,7 +62,7 @@ std::vector<std::string> Procedure::run(const ProcedureOptions& options) {
     if (!wanted) continue;
     requireEarlier(step.name);
     progress_.beginStep(step.name);
-    const std::string result = (this->*step.run)(options);
+    const std::string result = (this->*step.run)();
     calibration_.steps[step.name] = fingerprint(step.name);
     progress_.endStep(result);
     ran.push_back(step.name);
@@ -90,7 +70,7 @@ std::vector<std::string> Procedure::run(const ProcedureOptions& options) {
   return ran;
 }
 
-std::vector<std::string> Procedure::runOnly(const ProcedureOptions& options) {
+std::vector<std::string> Procedure::runOnly() {
   if (!calibration_.surface || !calibration_.display) {
     throw ProcedureError("--only measures against a calibrated wall: run pixelflex calibrate WALL first");
   }
@@ -101,12 +81,21 @@ std::vector<std::string> Procedure::runOnly(const ProcedureOptions& options) {
   std::vector<std::string> ran;
   for (const auto& step : repair) {
     progress_.beginStep(step.name);
-    progress_.endStep((this->*step.run)(options));
+    progress_.endStep((this->*step.run)());
     ran.push_back(step.name);
   }
   // What was measured before counts as measured now: the wall is whole again.
   for (const auto& step : steps()) calibration_.steps[step.name] = fingerprint(step.name);
   return ran;
+}
+
+/// The method asked for; else the one with which what is stored was measured, so that nothing counts as stale for want
+/// of an option; else blobs.
+Method Procedure::chooseMethod() const {
+  if (options_.method) return *options_.method;
+  const bool dense = std::ranges::any_of(calibration_.projectors,
+                                         [](const auto& projector) { return projector.quality.shown > kBlobCount; });
+  return dense ? Method::kDense : Method::kBlobs;
 }
 
 bool Procedure::stale(const std::string& step) const {
@@ -127,6 +116,7 @@ std::string Procedure::fingerprint(const std::string& step) const {
     print.add(board.columns).add(board.rows).add(board.square).add(measureStamp("checkerboard"));
   } else if (step == "surface") {
     previous("camera");
+    print.add(static_cast<int>(wall_.surface.shape)).add(wall_.surface.cylinderRadius);
     for (const auto& f : wall_.surface.fiducials) {
       print.add(f.pointInWall.x).add(f.pointInWall.y).add(f.aruco.value_or(-1));
       if (f.pointInCamera) print.add(f.pointInCamera->x).add(f.pointInCamera->y);
@@ -135,7 +125,7 @@ std::string Procedure::fingerprint(const std::string& step) const {
   } else if (step == "projectors") {
     previous("surface");
     for (const auto& p : wall_.projectors) print.add(p.name).add(p.resolution.width).add(p.resolution.height);
-    print.add(measureStamp("patterns"));
+    print.add(methodName(method_)).add(measureStamp("patterns"));
   } else if (step == "mesh") {
     previous("projectors");
     const auto aspect = wall_.display.aspect.value_or(AspectRatio{0, 0});
@@ -170,9 +160,11 @@ const CameraIntrinsics& Procedure::knownCamera() const {
   return *calibration_.camera;
 }
 
-const SurfaceFit& Procedure::knownSurface() const {
+std::vector<SurfaceFit> Procedure::knownSurfaces() const {
   if (!calibration_.surface) throw ProcedureError("the surface is not known: run pixelflex calibrate WALL surface");
-  return *calibration_.surface;
+  std::vector<SurfaceFit> surfaces = {*calibration_.surface};
+  surfaces.insert(surfaces.end(), calibration_.places.begin(), calibration_.places.end());
+  return surfaces;
 }
 
 const Display& Procedure::knownDisplay() const {
@@ -189,221 +181,118 @@ void Procedure::requireEarlier(const std::string& step) const {
   if (step == "mesh" || step == "blend" || step == "gamma") need(!calibration_.projectors.empty(), "projectors");
 }
 
-std::string Procedure::runCamera(const ProcedureOptions&) {
+std::string Procedure::runCamera() {
   auto& source = photographs("camera");
   tookPhotographs_ = true;
-  if (const auto known = source.knownCamera()) {
-    calibration_.camera = known;
-    return "known intrinsics, " + sizeText(known->size);
-  }
-  const Checkerboard board = wall_.camera.checkerboard.value_or(Checkerboard{});
-  std::vector<CheckerboardView> views;
-  devices::Size size;
-  int seen = 0;
-  // clang-tidy does not see that the loop is entered only with a photograph.
-  // NOLINTBEGIN(bugprone-unchecked-optional-access)
-  while (const auto shot = source.nextCheckerboard()) {
-    if (seen > 0 && shot->photo.size() != size) {
-      throw ProcedureError(shot->name + ": not of the same size as the photographs before it");
-    }
-    size = shot->photo.size();
-    if (const auto corners = findCheckerboard(shot->photo, board)) {
-      views.push_back({shot->name, *corners});
-    } else {
-      progress_.warn(shot->name + ": no checkerboard of " + std::to_string(board.columns) + "x" +
-                     std::to_string(board.rows) + " inner corners found; left out");
-    }
-    progress_.advance(++seen, source.checkerboardCount(), "checkerboard");
-  }
-  // NOLINTEND(bugprone-unchecked-optional-access)
-  if (seen == 0) {
-    throw ProcedureError(
-        "no checkerboard photographs (checkerboard/*.png) and no camera.yaml: about 15 photographs of the board are "
-        "needed once per camera");
-  }
-  try {
-    calibration_.camera = calibrateCamera(views, board, size);
-  } catch (const EstimateError& error) {
-    throw ProcedureError(std::string("camera: ") + error.what());
-  }
-  return count(static_cast<std::size_t>(knownCamera().photos), "photograph") + ", reprojection " +
-         rounded(knownCamera().rmsPx, 3) + " px RMS";
+  calibration_.camera = measureCamera(wall_.camera, source, progress_);
+  const CameraIntrinsics& camera = knownCamera();
+  if (camera.photos == 0) return "known intrinsics, " + sizeText(camera.size);
+  return count(static_cast<std::size_t>(camera.photos), "photograph") + ", reprojection " + rounded(camera.rmsPx, 3) +
+         " px RMS";
 }
 
-std::string Procedure::runSurface(const ProcedureOptions&) {
-  const FiducialSearch found = findFiducials(CameraMapping(knownCamera()));
-  if (found.pairs.size() < 4) {
-    throw ProcedureError(found.photo + ": fewer than four fiducials: " + std::to_string(found.pairs.size()) + " of " +
-                         std::to_string(wall_.surface.fiducials.size()) +
-                         " found; markers not found: " + found.missing +
-                         " (are they in the picture, evenly lit, at least 24 pixels wide, with a white border?)");
+std::string Procedure::runSurface() {
+  calibration_.places.clear();
+  if (wall_.surface.shape == SurfaceShape::kCamera) {
+    calibration_.surface = SurfaceFit{};
+    return "as the camera sees it";
   }
-  if (!found.missing.empty()) progress_.warn(found.photo + ": markers not found: " + found.missing);
-  try {
-    const Homography wallFromCamera = solveCollineation(found.pairs);
-    calibration_.surface = SurfaceFit{wallFromCamera.rowMajor(), rmsError(wallFromCamera, found.pairs)};
-  } catch (const EstimateError& error) {
-    throw ProcedureError("surface: " + std::string(error.what()));
+  tookPhotographs_ = tookPhotographs_ || photographs_ != nullptr;
+  if (photographs_ != nullptr && photographs_->placeCount() > 1) {
+    // Solved with the projectors, which tie the places together; until then nothing is known.
+    calibration_.surface = SurfaceFit{};
+    return count(static_cast<std::size_t>(photographs_->placeCount()), "camera place") + ", solved with the projectors";
   }
-  return count(found.pairs.size(), "fiducial") + ", fit " + rounded(knownSurface().rms, 3) + " " + wall_.surface.units +
-         " RMS";
+  const SeenFiducials seen = findFiducials(wall_, knownCamera(), photographs_, 0);
+  calibration_.surface = measureSurface(wall_.surface, knownCamera(), seen, progress_);
+  return count(seen.pairs.size(), "fiducial") + ", fit " + rounded(calibration_.surface->rms, 3) + " " +
+         wall_.surface.units + " RMS";
 }
 
-/// Fiducials whose pixels a person gave need no photograph; markers are looked for in one.
-Procedure::FiducialSearch Procedure::findFiducials(const CameraMapping& camera) {
-  FiducialSearch search;
-  std::map<int, glm::dvec2> markers;
-  const bool anyMarker =
-      std::ranges::any_of(wall_.surface.fiducials, [](const Fiducial& f) { return f.aruco.has_value(); });
-  if (anyMarker) {
-    auto& source = photographs("surface");
-    tookPhotographs_ = true;
-    const auto shot = source.fiducials();
-    search.photo = shot.name;
-    if (shot.photo.size() != knownCamera().size) {
-      throw ProcedureError(shot.name + ": " + sizeText(shot.photo.size()) +
-                           " pixels, but the camera was calibrated at " + sizeText(knownCamera().size));
-    }
-    markers = findMarkers(shot.photo, camera);
+std::vector<const ProjectorConfig*> Procedure::wantedProjectors() const {
+  std::vector<const ProjectorConfig*> wanted;
+  for (const auto& config : wall_.projectors) {
+    if (options_.skip.contains(config.name)) continue;
+    if (options_.only.empty() || options_.only.contains(config.name)) wanted.push_back(&config);
   }
-  for (const auto& fiducial : wall_.surface.fiducials) {
-    if (fiducial.pointInCamera) {
-      search.pairs.push_back({camera.undistortedFromRaw(*fiducial.pointInCamera), fiducial.pointInWall});
-    } else if (const auto found = markers.find(fiducial.aruco.value_or(-1)); found != markers.end()) {
-      search.pairs.push_back({found->second, fiducial.pointInWall});
-    } else {
-      search.missing += (search.missing.empty() ? "" : ", ") + std::to_string(fiducial.aruco.value_or(-1));
-    }
-  }
-  return search;
+  return wanted;
 }
 
-std::string Procedure::runProjectors(const ProcedureOptions& options) {
+std::string Procedure::runProjectors() {
   auto& source = photographs("projectors");
   tookPhotographs_ = true;
-  const CameraMapping camera(knownCamera());
-  std::vector<std::pair<const ProjectorConfig*, std::future<DecodedBlobs>>> decoding;
-  const auto wanted = [&](const std::string& name) {
-    return !options.skip.contains(name) && (options.only.empty() || options.only.contains(name));
-  };
+  const auto wanted = wantedProjectors();
   std::erase_if(calibration_.projectors,
-                [&](const auto& known) { return options.only.empty() || options.only.contains(known.name); });
+                [&](const auto& known) { return options_.only.empty() || options_.only.contains(known.name); });
   const std::size_t kept = calibration_.projectors.size();
-  const auto measured = std::ranges::count_if(wall_.projectors, wanted, &ProjectorConfig::name);
-  const int total = static_cast<int>(measured) * kPatternCount;
-  int done = 0;
-  for (const auto& config : wall_.projectors) {
-    if (!wanted(config.name)) continue;
-    done += kPatternCount;
-    if (!source.hasProjector(config.name)) {
-      progress_.warn("projector " + config.name + ": nothing was photographed of it; left out");
-      continue;
-    }
-    const BlobLayout layout(config.resolution);
-    auto photos = std::make_unique<PatternPhotos>();
-    int shown = 0;
-    for (const Pattern pattern : allPatterns()) {
-      auto& photo = (*photos)[static_cast<std::size_t>(pattern)];
-      photo = source.pattern(config.name, projected(pattern, layout));
-      if (photo.size() != knownCamera().size) {
-        throw ProcedureError(patternPath(config.name, projected(pattern, layout)).string() +
-                             ": not of the size that the camera was " + "calibrated at");
-      }
-      progress_.advance(done - kPatternCount + ++shown, total, config.name + "/" + patternName(pattern));
-    }
-    // One decoder at a time beside the camera: two cores, and a bounded number of photographs in memory.
-    if (!decoding.empty()) decoding.back().second.wait();
-    decoding.emplace_back(&config,
-                          std::async(std::launch::async, [photos = std::move(photos), layout, camera]() mutable {
-                            // Held here, not by the future: the photographs are many and large.
-                            const auto own = std::move(photos);
-                            return decodeBlobs(*own, layout, camera);
-                          }));
-  }
-  for (auto& [config, decoded] : decoding) addProjector(*config, decoded.get(), options);
+  ProjectorStep step(knownCamera(), method_, source, progress_,
+                     [this](const std::string& name, const std::string& problem) { reportFailure(name, problem); });
+  const auto seen = step.observe(wanted);
+  if (seen.empty()) throw ProcedureError("no projector could be calibrated");
+  const auto surfaces = surfacesFor(seen);
+  for (const auto& projector : seen) addProjector(projector, surfaces);
   if (calibration_.projectors.size() == kept) throw ProcedureError("no projector could be calibrated");
   std::ranges::sort(calibration_.projectors, {}, [&](const ProjectorCalibration& p) {
     return std::ranges::find(wall_.projectors, p.name, &ProjectorConfig::name) - wall_.projectors.begin();
   });
-  return count(calibration_.projectors.size() - kept, "projector") + " of " + std::to_string(measured);
+  return count(calibration_.projectors.size() - kept, "projector") + " of " + std::to_string(wanted.size());
 }
 
-void Procedure::addProjector(const ProjectorConfig& config, const DecodedBlobs& decoded,
-                             const ProcedureOptions& options) {
-  const int found = static_cast<int>(decoded.blobs.size());
-  if (decoded.saturatedShare > kMostSaturated) {
-    // Spots may still be found, but where white is clipped their light cannot be divided by it.
-    reportFailure(config.name,
-                  patternPath(config.name, projected(Pattern::kWhite, BlobLayout(config.resolution))).string() +
-                      ".png is over-exposed: " + rounded(100 * decoded.saturatedShare, 0) +
-                      " % of the lit area is saturated; shorten the exposure until white stays below 85 %",
-                  options);
-    return;
+/// Repairs measure against the surfaces that are stored; so does everything from a single place.
+std::vector<SurfaceFit> Procedure::surfacesFor(const std::vector<SeenProjector>& seen) {
+  const auto places = static_cast<std::size_t>(photographs("projectors").placeCount());
+  if (places == 1) return {knownSurfaces().front()};
+  if (!options_.only.empty()) {
+    if (knownSurfaces().size() != places) {
+      throw ProcedureError("the wall was measured from " + count(knownSurfaces().size(), "camera place") + ", not " +
+                           std::to_string(places) + ": photograph it again from the same places, or all of it");
+    }
+    return knownSurfaces();
   }
-  if (found < kFewestBlobs) {
-    reportFailure(config.name,
-                  std::to_string(found) + " of " + std::to_string(kBlobCount) + " blobs found; " + decoded.hint,
-                  options);
-    return;
+  std::vector<std::vector<PointPair>> fiducials;
+  for (std::size_t place = 0; place < places; ++place) {
+    photographs_->choosePlace(static_cast<int>(place));
+    const bool any = photographs_->hasFiducials();
+    fiducials.push_back(any ? findFiducials(wall_, knownCamera(), photographs_, static_cast<int>(place)).pairs
+                            : std::vector<PointPair>{});
+    progress_.advance(static_cast<int>(place) + 1, static_cast<int>(places), "fiducials");
   }
-  if (!decoded.hint.empty()) {
-    progress_.warn("projector " + config.name + ": " + std::to_string(found) + " of " + std::to_string(kBlobCount) +
-                   " blobs found; " + decoded.hint);
-  }
-  const Homography wallFromCamera(knownSurface().wallFromCamera);
-  const BlobLayout layout(config.resolution);
-  ProjectorCalibration projector{.name = config.name, .resolution = config.resolution};
-  if (const auto nudge = nudges_.find(config.name); nudge != nudges_.end()) projector.nudge = nudge->second;
-  for (const auto& blob : decoded.blobs) {
-    projector.samples.push_back({layout.centre(blob.id), wallFromCamera.map(blob.pointInUndistorted)});
-  }
+  auto surfaces = solveSurfaces(seen, std::move(fiducials));
+  calibration_.surface = surfaces.front();
+  calibration_.places.assign(surfaces.begin() + 1, surfaces.end());
+  return surfaces;
+}
+
+void Procedure::addProjector(const SeenProjector& seen, const std::vector<SurfaceFit>& surfaces) {
   try {
-    const ProjectorFit fit = fitProjector(projector.samples, config.resolution);
-    projector.model = fit.model;
-    projector.quality = fit.quality;
-    projector.quality.shown = kBlobCount;
+    ProjectorCalibration projector = calibrateProjector(seen, surfaces);
+    const SurfaceFit& surface = surfaces.at(seen.views.front().place);
+    checkFlatness(wall_.surface, knownCamera(), surface, seen, projector);
+    if (const auto nudge = nudges_.find(projector.name); nudge != nudges_.end()) projector.nudge = nudge->second;
+    calibration_.projectors.push_back(std::move(projector));
   } catch (const EstimateError& error) {
-    reportFailure(config.name, error.what(), options);
-    return;
+    reportFailure(seen.config->name, error.what());
   }
-  calibration_.projectors.push_back(std::move(projector));
 }
 
-void Procedure::reportFailure(const std::string& name, const std::string& problem, const ProcedureOptions& options) {
+void Procedure::reportFailure(const std::string& name, const std::string& problem) {
   const std::string message = "projector " + name + ": " + problem;
-  if (!options.goOnWithoutFailed) throw ProcedureError(message);
+  if (!options_.goOnWithoutFailed) throw ProcedureError(message);
   progress_.warn(message + "; left out");
 }
 
-std::string Procedure::keepOrFindDisplay(const ProcedureOptions& options) {
-  std::vector<Outline> outlines;
-  for (const auto& projector : calibration_.projectors) outlines.push_back(footprint(ProjectorMapping(projector)));
-  if (isLit(knownDisplay(), outlines)) return "desktop stays " + sizeText(knownDisplay().resolution);
+std::string Procedure::keepOrFindDisplay() {
+  if (displayIsLit(calibration_)) return "desktop stays " + sizeText(knownDisplay().resolution);
   progress_.warn("the old display is not wholly lit any more; a new one was found");
-  return runMesh(options);
+  return runMesh();
 }
 
-std::string Procedure::runMesh(const ProcedureOptions&) {
-  std::vector<Outline> outlines;
-  std::vector<double> densities;
-  for (const auto& projector : calibration_.projectors) {
-    const ProjectorMapping mapping(projector);
-    try {
-      outlines.push_back(footprint(mapping));
-    } catch (const GeometryError& error) {
-      throw ProcedureError("projector " + projector.name + ": " + error.what());
-    }
-    densities.push_back(mapping.meanDensity());
-  }
-  try {
-    calibration_.display = findDisplay(outlines, densities, wall_.display, wall_.desktop);
-  } catch (const GeometryError& error) {
-    throw ProcedureError(std::string("mesh: ") + error.what());
-  }
+std::string Procedure::runMesh() {
+  calibration_.display = measureDisplay(wall_, calibration_);
   return "desktop " + sizeText(knownDisplay().resolution);
 }
 
-std::string Procedure::runBlend(const ProcedureOptions&) {
+std::string Procedure::runBlend() {
   std::vector<ProjectorMapping> mappings;
   std::vector<double> densities;
   for (const auto& projector : calibration_.projectors) {
@@ -419,7 +308,7 @@ std::string Procedure::runBlend(const ProcedureOptions&) {
   return count(mappings.size(), "mask");
 }
 
-std::string Procedure::runGamma(const ProcedureOptions&) {
+std::string Procedure::runGamma() {
   std::size_t measured = 0;
   for (auto& projector : calibration_.projectors) {
     projector.response.reset();

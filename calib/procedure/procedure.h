@@ -2,25 +2,20 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "calib/capture/photographs.h"
-#include "calib/estimate/collineation.h"
-#include "calib/patterns/blob_decoder.h"
+#include "calib/patterns/method.h"
+#include "calib/procedure/procedure_error.h"
 #include "calib/procedure/progress.h"
+#include "calib/procedure/projector_step.h"
 #include "calib/store/store.h"
 #include "devices/image/image.h"
 
 namespace pixelflex::calib {
-
-/// A step cannot be done; what() says which, why and what to do.
-class ProcedureError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// The steps of `pixelflex calibrate`, in order.
 [[nodiscard]] const std::vector<std::string>& stepNames();
@@ -30,6 +25,7 @@ struct ProcedureOptions {
   bool force = false;              // with no steps: all, stale or not
   std::set<std::string> skip;      // projectors to leave out
   std::set<std::string> only;      // measure these again against the stored rest; steps and force do not apply
+  std::optional<Method> method;    // what the projectors show; none: as before, else blobs
   bool goOnWithoutFailed = false;  // a projector that is not found is left out with a warning instead of an error
 };
 
@@ -54,7 +50,8 @@ class Procedure {
  private:
   struct Step;
   static const std::vector<Step>& steps();
-  std::vector<std::string> runOnly(const ProcedureOptions& options);
+  std::vector<std::string> runOnly();
+  [[nodiscard]] Method chooseMethod() const;
 
   [[nodiscard]] std::string fingerprint(const std::string& step) const;
   [[nodiscard]] std::string measureStamp(const std::string& kind) const;
@@ -62,27 +59,23 @@ class Procedure {
   [[nodiscard]] Photographs& photographs(const std::string& step) const;
   /// What earlier steps measured; throw ProcedureError when they have not run.
   [[nodiscard]] const CameraIntrinsics& knownCamera() const;
-  [[nodiscard]] const SurfaceFit& knownSurface() const;
+  [[nodiscard]] std::vector<SurfaceFit> knownSurfaces() const;
   [[nodiscard]] const Display& knownDisplay() const;
   void requireEarlier(const std::string& step) const;
 
-  std::string runCamera(const ProcedureOptions& options);
-  std::string runSurface(const ProcedureOptions& options);
-  std::string runProjectors(const ProcedureOptions& options);
+  std::string runCamera();
+  std::string runSurface();
+  std::string runProjectors();
+  std::string runMesh();
   /// The display stays as it is when it is still lit, so that the desktop keeps its size.
-  std::string keepOrFindDisplay(const ProcedureOptions& options);
-  std::string runMesh(const ProcedureOptions& options);
-  std::string runBlend(const ProcedureOptions& options);
-  std::string runGamma(const ProcedureOptions& options);
+  std::string keepOrFindDisplay();
+  std::string runBlend();
+  std::string runGamma();
 
-  struct FiducialSearch {
-    std::vector<PointPair> pairs;  // undistorted camera to wall
-    std::string missing;           // marker ids, for messages
-    std::string photo;
-  };
-  FiducialSearch findFiducials(const CameraMapping& camera);
-  void addProjector(const ProjectorConfig& config, const DecodedBlobs& decoded, const ProcedureOptions& options);
-  void reportFailure(const std::string& name, const std::string& problem, const ProcedureOptions& options);
+  [[nodiscard]] std::vector<const ProjectorConfig*> wantedProjectors() const;
+  [[nodiscard]] std::vector<SurfaceFit> surfacesFor(const std::vector<SeenProjector>& seen);
+  void addProjector(const SeenProjector& seen, const std::vector<SurfaceFit>& surfaces);
+  void reportFailure(const std::string& name, const std::string& problem);
 
   std::filesystem::path folder_;
   const Wall& wall_;
@@ -90,6 +83,8 @@ class Procedure {
   Photographs* photographs_;
   Progress& progress_;
   Nudges nudges_;
+  ProcedureOptions options_;
+  Method method_ = Method::kBlobs;
   bool tookPhotographs_ = false;
   std::map<std::string, devices::Image16> masks_;  // by path relative to the folder
   std::map<std::string, std::string> responses_;   // likewise

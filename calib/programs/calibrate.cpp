@@ -36,7 +36,8 @@ struct Arguments {
   std::string wall;
   std::vector<std::string> steps;
   std::string patterns;
-  std::string photos;
+  std::vector<std::string> photos;
+  std::string method;
   std::vector<std::string> skip;
   std::vector<std::string> only;
   std::vector<std::string> nudges;
@@ -61,20 +62,20 @@ Source simulatedSource(const fs::path& folder, const Wall& wall, const Arguments
   for (std::size_t i = 0; i < source.room->projectorCount(); ++i) projectors.push_back(&source.room->projector(i));
   source.photographs = std::make_unique<LivePhotographs>(
       source.room->camera(), projectors, source.room->person(), arguments.check ? fs::path() : folder / "captures",
-      formatRig(source.room->rig()), source.room->rig().checkerboardPoses);
+      formatRig(source.room->rig()), source.room->rig().checkerboardPoses, source.room->placeCount());
   return source;
 }
 
 Source openSource(const fs::path& folder, const Wall& wall, const Arguments& arguments) {
   const fs::path captures = folder / "captures";
   if (!arguments.photos.empty()) {
-    return {nullptr, std::make_unique<FolderPhotographs>(std::vector<fs::path>{arguments.photos}, captures), false};
+    const std::vector<fs::path> folders(arguments.photos.begin(), arguments.photos.end());
+    return {nullptr, std::make_unique<FolderPhotographs>(folders, captures), false};
   }
   if (wall.camera.source == "sim") return simulatedSource(folder, wall, arguments);
   if (wall.camera.source == "photos") {
-    if (fs::is_directory(captures)) {
+    if (fs::is_directory(captures))
       return {nullptr, std::make_unique<FolderPhotographs>(std::vector{captures}, captures), false};
-    }
     throw ProcedureError(folder.string() +
                          ": camera: source is photos: give --photos DIR (--patterns DIR tells what to photograph)");
   }
@@ -82,12 +83,20 @@ Source openSource(const fs::path& folder, const Wall& wall, const Arguments& arg
                        " cannot be driven by this version; photograph by hand and use --photos DIR");
 }
 
+std::optional<Method> methodOf(const Arguments& arguments) {
+  if (arguments.method.empty()) return std::nullopt;
+  return arguments.method == methodName(Method::kDense) ? Method::kDense : Method::kBlobs;
+}
+
 void writePatternFolder(const Wall& wall, const Arguments& arguments) {
   std::vector<std::pair<std::string, devices::Size>> projectors;
   for (const auto& projector : wall.projectors) projectors.emplace_back(projector.name, projector.resolution);
-  writePatterns(arguments.patterns, projectors);
-  fmt::print("{} patterns for {} projectors in {}; read {}\n", kPatternCount * projectors.size(), projectors.size(),
-             arguments.patterns, (fs::path(arguments.patterns) / "README.txt").string());
+  const Method method = methodOf(arguments).value_or(Method::kBlobs);
+  writePatterns(arguments.patterns, projectors, method);
+  std::size_t patterns = 0;
+  for (const auto& [name, size] : projectors) patterns += patternsOf(method, size).size();
+  fmt::print("{} patterns for {} projectors in {}; read {}\n", patterns, projectors.size(), arguments.patterns,
+             (fs::path(arguments.patterns) / "README.txt").string());
 }
 
 void requireProjectors(const Wall& wall, const std::string& option, const std::vector<std::string>& names) {
@@ -160,6 +169,7 @@ void calibrate(const Arguments& arguments) {
                                   .force = arguments.all,
                                   .skip = {arguments.skip.begin(), arguments.skip.end()},
                                   .only = {arguments.only.begin(), arguments.only.end()},
+                                  .method = methodOf(arguments),
                                   .goOnWithoutFailed = source.live});
   if (ran.empty()) fmt::print("nothing has changed since the last calibration (--all measures again)\n");
   if (!ran.empty()) procedure.save();
@@ -180,7 +190,13 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(pixelflex::calib::stepNames()));
   auto* patterns =
       app.add_option("--patterns", arguments.patterns, "only write what each projector must show into this folder");
-  app.add_option("--photos", arguments.photos, "work from the photographs in this folder")->excludes(patterns);
+  app.add_option("--photos", arguments.photos,
+                 "work from the photographs in this folder; give it once for each place that the camera stood at")
+      ->excludes(patterns);
+  app.add_option(
+         "--method", arguments.method,
+         "what the projectors show: blobs (the default) or dense, stripes for curved screens and coarse cameras")
+      ->check(CLI::IsMember({"blobs", "dense"}));
   app.add_option("--skip", arguments.skip, "leave these projectors out")->delimiter(',');
   app.add_option("--only", arguments.only, "measure these projectors again, against the stored rest")->delimiter(',');
   app.add_flag("--check", arguments.check, "photograph one pattern per projector and say how far each has moved");

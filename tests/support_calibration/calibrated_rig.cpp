@@ -5,7 +5,7 @@
 
 namespace pixelflex::calib {
 
-CalibratedRig calibrateRig(SimulatedWall& room, const std::filesystem::path& folder) {
+CalibratedRig calibrateRig(SimulatedWall& room, const std::filesystem::path& folder, std::optional<Method> method) {
   CalibratedRig result;
   result.wall = wallOfRig(room.rig(), "rig.yaml");
   std::vector<devices::Projector*> projectors;
@@ -15,10 +15,10 @@ CalibratedRig calibrateRig(SimulatedWall& room, const std::filesystem::path& fol
   }
   saveWall(folder, result.wall);
   LivePhotographs photographs(room.camera(), projectors, room.person(), folder / "captures", "test",
-                              room.rig().checkerboardPoses);
+                              room.rig().checkerboardPoses, room.placeCount());
   RecordedProgress progress;
   Procedure procedure(folder, result.wall, {}, &photographs, progress);
-  procedure.run({.goOnWithoutFailed = true});
+  procedure.run({.method = method, .goOnWithoutFailed = true});
   procedure.save();
   result.calibration = procedure.calibration();
   result.warnings = progress.warnings;

@@ -25,6 +25,7 @@ struct CalibratedRig {
   Calibration calibration;
   std::vector<std::string> warnings;
 };
-[[nodiscard]] CalibratedRig calibrateRig(SimulatedWall& room, const std::filesystem::path& folder);
+[[nodiscard]] CalibratedRig calibrateRig(SimulatedWall& room, const std::filesystem::path& folder,
+                                         std::optional<Method> method = std::nullopt);
 
 }  // namespace pixelflex::calib
