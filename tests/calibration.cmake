@@ -23,3 +23,6 @@ pixelflex_test(report_test LABEL unit
     unit/report_heat_test.cpp unit/report_page_test.cpp unit/report_seams_test.cpp unit/summary_verdicts_test.cpp
     support_calibration/plain_wall.cpp support_calibration/plain_wall.h
   LINK pixelflex_report pixelflex_simulate pixelflex_test_support)
+pixelflex_test(report_rig_test LABEL unit
+  SOURCES unit/report_rig_test.cpp
+  LINK pixelflex_test_calibration pixelflex_test_support)

@@ -10,7 +10,13 @@ namespace pixelflex::calib {
 namespace {
 
 /// Unknowns that a homography and a lens really have: of Brown's, the higher ones hardly show.
-constexpr double kUnknowns = 12;
+constexpr double kLensUnknowns = 12;
+
+/// Numbers that the model was fitted with.
+double unknownsOf(const ProjectorModel& model) {
+  if (!model.residual) return kLensUnknowns;
+  return kLensUnknowns + 2.0 * (model.residual->columns + 3) * (model.residual->rows + 3);
+}
 
 }  // namespace
 
@@ -18,11 +24,14 @@ FitUncertainty::FitUncertainty(const ProjectorCalibration& projector)
     : mapping_(projector.model, projector.resolution) {
   measureResiduals(projector);
   const double numbers = 2 * static_cast<double>(residuals_.size());
+  const double unknowns = unknownsOf(projector.model);
+  if (projector.flatAt || numbers <= unknowns + 1) return;
   const double squares = projector.quality.rms * projector.quality.rms;
-  if (projector.flatAt || numbers <= kUnknowns + 1) return;
-  sampleVariance_ = std::min(squares * numbers / (numbers - kUnknowns), neighbourVariance());
   const double deviation = projector.quality.deviation;
-  modelVariance_ = deviation > 0 ? deviation * deviation : squares * kUnknowns / (numbers - kUnknowns);
+  sampleVariance_ = std::min(squares * numbers / (numbers - unknowns), neighbourVariance());
+  // The deviation is that of the lens alone: where a spline follows what the lens leaves, it says too much.
+  const bool known = deviation > 0 && !projector.model.residual;
+  modelVariance_ = known ? deviation * deviation : squares * unknowns / (numbers - unknowns);
   spacing_ = std::sqrt(static_cast<double>(projector.resolution.area()) / static_cast<double>(residuals_.size()));
   learnLeverage();
 }

@@ -27,9 +27,11 @@ struct Seam {
 /// m is the mean of the samples' residuals around w (Gaussian window of 0.75 sample spacings): where the model bends
 /// away from what was measured, both projectors' lights part by the difference. n is the variance that such a mean has
 /// from the samples' noise alone. v is the variance of the fitted model: FitQuality::deviation squared (from the rms
-/// and the number of samples where it is not known), spread over the frame by the leverage of a quadratic fit to the
-/// samples' places, so that it grows towards the border as a model's does. What both projectors share (the camera's
-/// lens, the fiducials) moves both alike and makes no seam; it does not enter. Corrections by hand count as right.
+/// and the numbers of samples and unknowns where that is not known, or a residual spline follows the lens), spread over
+/// the frame by the leverage of a quadratic fit to the samples' places, so that it grows towards the border as a
+/// model's does. What both projectors share (the camera's lens, the fiducials) moves both alike and makes no seam; it
+/// does not enter. A shift of all points of one projector alike would make one, but no residual shows it: it does not
+/// enter either. Corrections by hand count as right.
 [[nodiscard]] std::vector<Seam> findSeams(const Calibration& calibration);
 
 }  // namespace pixelflex::calib
