@@ -7,6 +7,7 @@
 #include "calib/procedure/verdicts.h"
 #include "calib/report/html_text.h"
 #include "calib/report/photo_drawing.h"
+#include "calib/report/plan_drawing.h"
 #include "calib/report/projector_drawing.h"
 #include "calib/report/report_style.h"
 #include "calib/report/report_tables.h"

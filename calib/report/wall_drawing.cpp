@@ -53,8 +53,8 @@ class WallDrawing {
   }
 
   [[nodiscard]] std::string draw() {
-    const glm::dvec2 low = frame_.low - 3 * unit_;
-    const glm::dvec2 size = frame_.high - frame_.low + glm::dvec2(6 * unit_, 9 * unit_);
+    const glm::dvec2 low = frame_.low - glm::dvec2(3 * unit_, 5 * unit_);
+    const glm::dvec2 size = frame_.high - frame_.low + glm::dvec2(6 * unit_, 10 * unit_);
     svg_ = fmt::format(
         "<svg class=\"wall\" viewBox=\"{:.1f} {:.1f} {:.1f} {:.1f}\" role=\"img\" aria-label=\"The wall from the "
         "audience: {} projectors' footprints and the display\">\n",
@@ -105,10 +105,8 @@ class WallDrawing {
         "<rect class=\"display\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" stroke-width=\"{:.2f}\" "
         "stroke-dasharray=\"{:.1f} {:.1f}\"/>\n",
         d.left, d.top, d.right - d.left, d.bottom - d.top, unit_ / 2.5, 1.6 * unit_, 0.8 * unit_);
-    svg_ += fmt::format(
-        "<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.2f}\" stroke-width=\"{:.2f}\">desktop {} × "
-        "{}</text>\n",
-        d.left + unit_, d.top + 3 * unit_, 2.2 * unit_, unit_ / 2, d.resolution.width, d.resolution.height);
+    svg_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.2f}\">desktop {} × {}</text>\n", frame_.low.x,
+                        frame_.low.y - 1.6 * unit_, 2 * unit_, d.resolution.width, d.resolution.height);
   }
 
   void drawFiducials() {
@@ -161,48 +159,6 @@ std::optional<double> densityAt(glm::dvec2 pointInWall, const std::vector<Projec
 std::string drawWall(const Wall& wall, const Calibration& calibration, const Summary& summary) {
   if (frameOf(summary).empty()) return "";
   return WallDrawing(wall, calibration, summary).draw();
-}
-
-std::string drawPlan(const Calibration& calibration, const Summary& summary) {
-  const Frame frame = frameOf(summary);
-  if (!calibration.surface || !calibration.surface->bend || frame.empty()) return "";
-  const Bend& bend = *calibration.surface->bend;
-  const double hollow = bend.radius > 0 ? 1 : -1;
-  const double radius = std::abs(bend.radius);
-  const auto onArc = [&](double wallX, double inset) {
-    const double t = (wallX - bend.apex) / radius;
-    return glm::dvec2((radius - inset) * std::sin(t), hollow * (radius - (radius - inset) * std::cos(t)));
-  };
-  const double unit = (frame.high.x - frame.low.x) / 100;
-  const auto arc = [&](double from, double to, double inset) {
-    std::string path;
-    for (int i = 0; i <= 32; ++i) {
-      const glm::dvec2 p = onArc(from + (to - from) * i / 32, inset);
-      path += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L", p.x, p.y);
-    }
-    return path;
-  };
-  std::string paths = fmt::format("<path class=\"rule\" d=\"{}\" stroke-width=\"{:.2f}\"/>\n",
-                                  arc(frame.low.x, frame.high.x, 0), 0.6 * unit);
-  Frame box;
-  double inset = 1.4 * unit;
-  for (std::size_t i = 0; i < summary.projectors.size(); ++i) {
-    const auto& outline = summary.projectors[i].outline;
-    if (outline.empty()) continue;
-    const auto [left, right] = std::ranges::minmax(outline, {}, &glm::dvec2::x);
-    for (const double x : {left.x, (left.x + right.x) / 2, right.x})
-      box.include(onArc(x, inset)), box.include(onArc(x, 0));
-    paths +=
-        fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2f}\"><title>{}</title></path>\n",
-                    arc(left.x, right.x, inset), colourOf(i), 0.9 * unit, escaped(summary.projectors[i].name));
-    inset += 1.3 * unit;
-  }
-  return fmt::format(
-             "<svg class=\"wall\" viewBox=\"{:.1f} {:.1f} {:.1f} {:.1f}\" role=\"img\" aria-label=\"The bent screen "
-             "from above\">\n",
-             box.low.x - 3 * unit, box.low.y - 3 * unit, box.high.x - box.low.x + 6 * unit,
-             box.high.y - box.low.y + 6 * unit) +
-         paths + "</svg>\n";
 }
 
 std::string drawWallDensity(const Wall& wall, const Calibration& calibration, const Summary& summary) {

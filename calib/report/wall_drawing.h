@@ -10,9 +10,6 @@ namespace pixelflex::calib {
 /// Empty when nothing is calibrated.
 [[nodiscard]] std::string drawWall(const Wall& wall, const Calibration& calibration, const Summary& summary);
 
-/// A bent screen from above: its arc, and what each projector lights of it. Empty on a plane.
-[[nodiscard]] std::string drawPlan(const Calibration& calibration, const Summary& summary);
-
 /// Projector pixels per desktop pixel all over the display, with what to make of it. Empty without a display.
 [[nodiscard]] std::string drawWallDensity(const Wall& wall, const Calibration& calibration, const Summary& summary);
 

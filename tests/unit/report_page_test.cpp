@@ -91,7 +91,7 @@ TEST_F(ReportPage, NamesEveryProjectorAndEveryOverlap) {
   EXPECT_EQ(count(html, "</span>p1 and <span"), 1u);
   EXPECT_EQ(count(html, "</span>p2 and <span"), 1u);
   EXPECT_EQ(count(html, "</span>p3 and <span"), 1u);
-  EXPECT_THAT(html, HasSubstr("desktop 3530 × 980"));
+  EXPECT_THAT(html, HasSubstr("desktop 3530 × 980</text>"));
 }
 
 TEST_F(ReportPage, NamesAreText) {
