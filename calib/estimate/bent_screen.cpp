@@ -67,7 +67,8 @@ double bestCurvature(const std::function<double(double)>& error) {
   for (int i = 0; i < 14; ++i) {
     const double a = high - kGolden * (high - low);
     const double b = low + kGolden * (high - low);
-    (error(a) < error(b) ? high : low) = error(a) < error(b) ? b : a;
+    const bool left = error(a) < error(b);
+    (left ? high : low) = left ? b : a;
   }
   return 0.5 * (low + high);
 }
@@ -159,9 +160,15 @@ std::optional<Bow> bowOfFiducials(std::span<const PointPair> fiducials, const Ca
 std::optional<Bow> bowOfProjector(std::span<const PointPair> points, devices::Size resolution,
                                   std::span<const PointPair> fiducials, const CameraIntrinsics& camera) {
   if (fiducials.size() < 4 || points.empty()) return std::nullopt;
+  // A bow shows in a hundred points as well as in thousands.
+  constexpr std::size_t kEnough = 100;
+  std::vector<PointPair> few;
+  for (std::size_t i = 0; i < points.size(); i += std::max(std::size_t{1}, points.size() / kEnough)) {
+    few.push_back(points[i]);
+  }
   SurfaceFit plane;
   plane.wallFromCamera = solveCollineation(fiducials).rowMajor();
-  const auto samples = samplesOn(plane, points);
+  const auto samples = samplesOn(plane, few);
   if (!samples) return std::nullopt;
   LensSolver flat(*samples, resolution, std::nullopt);
   flat.solve();
@@ -169,7 +176,7 @@ std::optional<Bow> bowOfProjector(std::span<const PointPair> points, devices::Si
   const auto [low, high] = std::ranges::minmax(*samples, {}, [](const Sample& s) { return s.pointInWall.x; });
   const double width = high.pointInWall.x - low.pointInWall.x;
   const auto error = [&](double curvature) {
-    return bentError(points, resolution, fitBentSurface(fiducials, camera, radiusOf(curvature, width)));
+    return bentError(few, resolution, fitBentSurface(fiducials, camera, radiusOf(curvature, width)));
   };
   const double curvature = bestCurvature(error);
   const double bent = error(curvature);

@@ -196,7 +196,7 @@ class Adjustment {
     options.linear_solver_type = ceres::SPARSE_SCHUR;
     options.max_num_iterations = 100;
     options.function_tolerance = 1e-12;
-    options.num_threads = 2;
+    options.num_threads = 1;  // the same photographs give the same bits
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &ceres_, &summary);

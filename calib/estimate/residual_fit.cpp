@@ -104,7 +104,14 @@ class SplineSystem {
   std::vector<ResidualMap::Support> supports_;
 };
 
-/// Outliers must not decide: the errors' median stands for the fit.
+/// Root mean square in which outliers count as ten times the median: borders must decide, wild samples must not.
+double typical(const std::vector<double>& errors) {
+  const double limit = 10 * median(errors);
+  double squares = 0;
+  for (const double error : errors) squares += std::min(error, limit) * std::min(error, limit);
+  return errors.empty() ? 0 : std::sqrt(squares / static_cast<double>(errors.size()));
+}
+
 double heldOutError(std::span<const ResidualSample> samples, const ResidualChoice& choice, devices::Size resolution) {
   SplineSystem system(samples, choice, resolution);
   std::vector<double> errors;
@@ -114,7 +121,7 @@ double heldOutError(std::span<const ResidualSample> samples, const ResidualChoic
       if (samples[i].fold == fold) errors.push_back(system.error(i));
     }
   }
-  return median(std::move(errors));
+  return typical(errors);
 }
 
 }  // namespace
@@ -124,7 +131,7 @@ std::optional<ResidualChoice> chooseResidual(std::span<const ResidualSample> sam
   constexpr std::array kStiffness{1e-3, 0.1, 10.0};
   std::vector<double> plain;
   for (const auto& sample : samples) plain.push_back(glm::length(sample.residual));
-  double best = kWorthIt * median(std::move(plain));
+  double best = kWorthIt * typical(plain);
   std::optional<ResidualChoice> chosen;
   for (const int columns : kColumns) {
     const int rows = std::max(2, static_cast<int>(std::lround(double(columns) * resolution.height / resolution.width)));

@@ -192,6 +192,7 @@ int main(int argc, char** argv) {
       app.add_option("--patterns", arguments.patterns, "only write what each projector must show into this folder");
   app.add_option("--photos", arguments.photos,
                  "work from the photographs in this folder; give it once for each place that the camera stood at")
+      ->allow_extra_args(false)
       ->excludes(patterns);
   app.add_option(
          "--method", arguments.method,
