@@ -10,6 +10,7 @@ pixelflex_test(registration_test LABEL gl TIMEOUT 300
 pixelflex_test(geometry_test LABEL unit
   SOURCES unit/geometry_mapping_test.cpp unit/geometry_display_test.cpp unit/geometry_mesh_test.cpp unit/geometry_nudge_test.cpp unit/geometry_screen_test.cpp
   LINK pixelflex_geometry)
+pixelflex_test(patterns_blob_test LABEL unit SOURCES unit/patterns_blob_test.cpp unit/patterns_blob_photos_test.cpp unit/blob_photographs.h LINK pixelflex_patterns pixelflex_simulate)
 pixelflex_test(patterns_dense_test LABEL unit
   SOURCES unit/patterns_dense_test.cpp
   LINK pixelflex_patterns pixelflex_simulate)

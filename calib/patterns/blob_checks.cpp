@@ -51,10 +51,6 @@ class BlobCheck {
   }
 
  private:
-  [[nodiscard]] bool present(int column, int row) const {
-    return present_[static_cast<std::size_t>(row * kBlobColumns + column + 1)];
-  }
-
   void checkNoise() {
     const double error = std::sqrt(2) * medianOf(evidence_.blobs, [](const auto& blob) { return blob.blob.error; });
     if (error < kUnsure) return;
@@ -120,13 +116,21 @@ class BlobCheck {
     std::string seen = std::to_string(missing) + " of " + std::to_string(kBlobCount) + " blobs are not seen";
     const std::string where = placeOfMissing();
     if (!where.empty()) seen += ", mostly " + where + " of the photograph";
-    const std::string side = emptySide();
-    if (!side.empty()) seen += "; none along the frame's " + side;
-    // Where the photograph ends another one, from elsewhere, may show the rest: for the caller to judge.
-    const bool tooMany = missing > kMostMissing || (!side.empty() && !evidence_.frame.cutOff);
+    const auto side = std::ranges::find_if(sides(), [&](const Side& one) { return seenAlong(one) < kFewestAlong; });
+    const bool open = side != sides().end();
+    if (open) seen += "; hardly one along the frame's " + side->name + ", beyond which its map is a guess";
+    // Where the photograph ends another one, from elsewhere, may show the rest: for the caller to judge. Where white is
+    // dark as well the screen ends, and the guess is about nothing that anybody sees.
+    const bool tooMany =
+        !evidence_.frame.cutOff && (missing > kMostMissing || (open && litAlong(*side) >= kBlobColumns / 2));
     std::string advice = explainMissing(evidence_);
-    if (!tooMany) advice += "; goes on with the other " + std::to_string(kBlobCount - missing);
+    if (!tooMany && missing < kBlobCount) advice += "; goes on with the other " + std::to_string(kBlobCount - missing);
     add({Pattern::kBlobs}, seen, advice, tooMany);
+  }
+
+  [[nodiscard]] glm::dvec2 expectedInRaw(int id) const {
+    const auto there = mapAround(id, evidence_.grid, evidence_.layout).map(evidence_.layout.centre(id));
+    return evidence_.camera.rawFromUndistorted(there);
   }
 
   /// Where the missing blobs would be in the photograph.
@@ -136,27 +140,42 @@ class BlobCheck {
     int count = 0;
     for (int id = 1; id <= kBlobCount; ++id) {
       if (present_[static_cast<std::size_t>(id)]) continue;
-      const auto there = mapAround(id, evidence_.grid, evidence_.layout).map(evidence_.layout.centre(id));
-      sum += evidence_.camera.rawFromUndistorted(there);
+      sum += expectedInRaw(id);
       ++count;
     }
     return placeInPhoto(sum / double(count), evidence_.photo);
   }
 
-  /// The first outer row or column with hardly a blob: beyond it the map would be a guess.
-  [[nodiscard]] std::string emptySide() const {
-    constexpr int kFewest = 2;
-    const auto count = [&](const auto& isPresent) {
-      int seen = 0;
-      for (int i = 0; i < kBlobColumns; ++i) seen += isPresent(i) ? 1 : 0;
-      return seen;
-    };
+  /// An outer row or column of blobs.
+  struct Side {
+    std::string name;
+    int first;
+    int step;
+  };
+  static constexpr int kFewestAlong = 2;
+
+  [[nodiscard]] static const std::array<Side, 4>& sides() {
+    static const std::array<Side, 4> kSides = {Side{"top", 1, 1}, Side{"bottom", kBlobCount - kBlobColumns + 1, 1},
+                                               Side{"left side", 1, kBlobColumns},
+                                               Side{"right side", kBlobColumns, kBlobColumns}};
     static_assert(kBlobColumns == kBlobRows);
-    if (count([&](int i) { return present(i, 0); }) < kFewest) return "top";
-    if (count([&](int i) { return present(i, kBlobRows - 1); }) < kFewest) return "bottom";
-    if (count([&](int i) { return present(0, i); }) < kFewest) return "left side";
-    if (count([&](int i) { return present(kBlobColumns - 1, i); }) < kFewest) return "right side";
-    return "";
+    return kSides;
+  }
+  [[nodiscard]] int seenAlong(const Side& side) const {
+    int count = 0;
+    for (int i = 0; i < kBlobColumns; ++i)
+      count += present_[static_cast<std::size_t>(side.first + i * side.step)] ? 1 : 0;
+    return count;
+  }
+  [[nodiscard]] int litAlong(const Side& side) const {
+    if (evidence_.grid.spots.size() < 8) return 0;
+    int count = 0;
+    for (int i = 0; i < kBlobColumns; ++i) {
+      const glm::dvec2 raw = expectedInRaw(side.first + i * side.step);
+      const bool inside = raw.x >= 0 && raw.y >= 0 && raw.x < evidence_.photo.width && raw.y < evidence_.photo.height;
+      if (inside && evidence_.frame.mask.at(static_cast<int>(raw.x), static_cast<int>(raw.y)) != 0) ++count;
+    }
+    return count;
   }
 
   void add(std::vector<Pattern> patterns, std::string seen, std::string advice, bool fatal) {

@@ -9,10 +9,10 @@
 namespace pixelflex::calib {
 namespace {
 
-constexpr double kMovedAtAll = 0.15;  // camera pixels that spots of two good photographs never differ by
-constexpr double kMovedTooFar = 0.5;
-constexpr double kFrameMoved = 0.4;  // likewise, by the softer edges of white
-constexpr double kFrameMovedTooFar = 1;
+constexpr double kMovedAtAll = 0.1;  // camera pixels; spots of two good photographs differ by 0.01
+constexpr double kMovedTooFar = 0.4;
+constexpr double kFrameMoved = 0.2;  // by the edges of white, which are softer: 0.06
+constexpr double kFrameMovedTooFar = 0.5;
 constexpr double kOtherExposure = 1.25;
 constexpr double kBlurred = 0.8;  // sharpness relative to the blobs photograph
 constexpr std::size_t kFewestNumbered = 20;
@@ -32,9 +32,9 @@ class CodeCheck {
 
   std::vector<PhotoProblem> run() {
     if (evidence_.grid.spots.size() >= kFewestNumbered) checkWhatIsShown();
+    checkSharpness();
     checkFrameMoved();
     checkMoved();
-    checkSharpness();
     checkExposure();
     return std::move(problems_);
   }

@@ -77,7 +77,7 @@ class Decoder {
     std::vector<FittedBlob> blobs;
     FrameEdges edges;
     if (grid.spots.size() >= kFewestSpots) {
-      edges = measureEdges(frame, grid, layout_, camera_);
+      edges = measureEdges(frame, grid, layout_);
       // White falls off there, and what is divided by it would rise.
       const double rim = std::min(1 + 3 * edges.blur, 2 * scale * layout_.sigma());
       blobs = refineBlobs(photo, light, spots.peak, withoutRim(frame, rim), grid, layout_, camera_);

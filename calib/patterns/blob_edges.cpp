@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <vector>
 
 namespace pixelflex::calib {
@@ -23,53 +24,67 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+/// A line of blobs towards the frame's edge, continued beyond the last: a cubic through the last four, which follows
+/// perspective and the bend of a wide lens.
+class Line {
+ public:
+  explicit Line(const std::array<glm::dvec2, 4>& fromTheLast) : nodes_(fromTheLast) {}
+
+  /// `u`: 0 at the last blob, 1 a blob's distance further out.
+  [[nodiscard]] glm::dvec2 at(double u) const {
+    return nodes_[0] * ((u + 1) * (u + 2) * (u + 3) / 6) - nodes_[1] * (u * (u + 2) * (u + 3) / 2) +
+           nodes_[2] * (u * (u + 1) * (u + 3) / 2) - nodes_[3] * (u * (u + 1) * (u + 2) / 6);
+  }
+
+ private:
+  std::array<glm::dvec2, 4> nodes_;
+};
+
 class EdgeSearch {
  public:
-  EdgeSearch(const FrameLight& frame, const Grid& grid, const BlobLayout& layout, const CameraMapping& camera)
-      : frame_(frame), grid_(grid), layout_(layout), camera_(camera) {}
+  EdgeSearch(const FrameLight& frame, const Grid& grid, const BlobLayout& layout) : frame_(frame), layout_(layout) {
+    for (const auto& spot : grid.spots) pointsInRaw_[static_cast<std::size_t>(spot.id - 1)] = spot.pointInRaw;
+  }
 
   FrameEdges run() {
+    constexpr int kLast = kBlobCount - kBlobColumns;
     // Corners are left out: two edges meet there.
     for (int i = 1; i + 1 < kBlobColumns; ++i) {
-      search(0, i, {0, -1});
-      search(1, (kBlobRows - 1) * kBlobColumns + i, {0, 1});
-      search(2, i * kBlobColumns, {-1, 0});
-      search(3, i * kBlobColumns + kBlobColumns - 1, {1, 0});
+      search(0, i, kBlobColumns);
+      search(1, kLast + i, -kBlobColumns);
+      search(2, i * kBlobColumns, 1);
+      search(3, (i + 1) * kBlobColumns - 1, -1);
     }
     return summary();
   }
 
  private:
-  /// Lines across the edge beside a blob, outwards in the projector.
-  void search(std::size_t side, int index, glm::dvec2 outwards) {
-    const int id = index + 1;
-    if (std::ranges::find(grid_.spots, id, &GridSpot::id) == grid_.spots.end()) return;
-    const Homography cameraFromProjector = mapAround(id, grid_, layout_);
-    const glm::dvec2 centre = layout_.centre(id);
+  /// The line of blobs that ends at `last`; `inwards` leads from one of its blobs to the next.
+  void search(std::size_t side, int last, int inwards) {
+    std::array<glm::dvec2, 4> nodes{};
+    for (int i = 0; i < 4; ++i) {
+      const auto& point = pointsInRaw_[static_cast<std::size_t>(last + i * inwards)];
+      if (!point) return;
+      nodes[static_cast<std::size_t>(i)] = *point;
+    }
+    const glm::dvec2 centre = layout_.centre(last + 1);
+    const double spacing = glm::length(layout_.centre(last + inwards + 1) - centre);
     const auto resolution = layout_.resolution();
-    const glm::dvec2 edge{outwards.x > 0 ? resolution.width : 0, outwards.y > 0 ? resolution.height : 0};
-    const glm::dvec2 along{std::abs(outwards.y), std::abs(outwards.x)};
-    for (const double aside : {-2.0, 0.0, 2.0}) {
-      const glm::dvec2 from = outwards.x != 0 ? glm::dvec2(edge.x, centre.y) : glm::dvec2(centre.x, edge.y);
-      if (const auto found = cross(from + along * aside * layout_.sigma(), outwards, cameraFromProjector)) {
-        crossings_[side].push_back(*found);
-      }
+    const std::array<double, 4> toEdge = {centre.y, resolution.height - centre.y, centre.x,
+                                          resolution.width - centre.x};
+    if (const auto found = cross(Line(nodes), toEdge[side] / spacing, 3 * layout_.sigma() / spacing)) {
+      crossings_[side].push_back(*found);
     }
   }
 
-  [[nodiscard]] glm::dvec2 toRaw(const Homography& cameraFromProjector, glm::dvec2 pointInProjector) const {
-    return camera_.rawFromUndistorted(cameraFromProjector.map(pointInProjector));
-  }
-
-  [[nodiscard]] std::optional<Crossing> cross(glm::dvec2 onEdge, glm::dvec2 outwards,
-                                              const Homography& cameraFromProjector) const {
+  /// Around `edge` by `reach` to each side, both along the line.
+  [[nodiscard]] std::optional<Crossing> cross(const Line& line, double edge, double reach) const {
     constexpr int kSteps = 60;  // to each side
-    const double reach = 3 * layout_.sigma();
-    const glm::dvec2 expected = toRaw(cameraFromProjector, onEdge);
+    const glm::dvec2 expected = line.at(edge);
     std::array<double, 2 * kSteps + 1> light{};
     std::array<double, 2 * kSteps + 1> at{};
     for (int i = -kSteps; i <= kSteps; ++i) {
-      const glm::dvec2 raw = toRaw(cameraFromProjector, onEdge + outwards * (reach * i / kSteps));
+      const glm::dvec2 raw = line.at(edge + reach * i / kSteps);
       if (raw.x < 1 || raw.y < 1 || raw.x > frame_.range.width() - 1.0 || raw.y > frame_.range.height() - 1.0) {
         return std::nullopt;
       }
@@ -89,8 +104,8 @@ class EdgeSearch {
     };
     const double half = place(0.5);
     if (half > at.back()) return std::nullopt;
-    const glm::dvec2 direction = toRaw(cameraFromProjector, onEdge + outwards) - expected;
-    return Crossing{half, place(0.2) - place(0.8), direction / glm::length(direction)};
+    const glm::dvec2 outwards = line.at(edge + reach) - expected;
+    return Crossing{half, place(0.2) - place(0.8), outwards / glm::length(outwards)};
   }
 
   [[nodiscard]] double sample(glm::dvec2 raw) const {
@@ -114,7 +129,7 @@ class EdgeSearch {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (const auto& side : crossings_) {
-      if (side.size() < 6) continue;
+      if (side.size() < 4) continue;
       ++edges.sides;
       std::vector<double> beyond;
       glm::dvec2 outwards{0, 0};
@@ -137,17 +152,15 @@ class EdgeSearch {
   }
 
   const FrameLight& frame_;
-  const Grid& grid_;
   const BlobLayout& layout_;
-  const CameraMapping& camera_;
+  std::array<std::optional<glm::dvec2>, kBlobCount> pointsInRaw_;
   std::array<std::vector<Crossing>, 4> crossings_;
 };
 
 }  // namespace
 
-FrameEdges measureEdges(const FrameLight& frame, const Grid& grid, const BlobLayout& layout,
-                        const CameraMapping& camera) {
-  return EdgeSearch(frame, grid, layout, camera).run();
+FrameEdges measureEdges(const FrameLight& frame, const Grid& grid, const BlobLayout& layout) {
+  return EdgeSearch(frame, grid, layout).run();
 }
 
 }  // namespace pixelflex::calib

@@ -12,7 +12,6 @@ struct FrameEdges {
   double blur = 0;         // sigma of the edge's softness, camera pixels
   glm::dvec2 shift{0, 0};  // of the lit frame against the blobs, raw pixels; needs three sides
 };
-[[nodiscard]] FrameEdges measureEdges(const FrameLight& frame, const Grid& grid, const BlobLayout& layout,
-                                      const CameraMapping& camera);
+[[nodiscard]] FrameEdges measureEdges(const FrameLight& frame, const Grid& grid, const BlobLayout& layout);
 
 }  // namespace pixelflex::calib

@@ -112,7 +112,7 @@ class LevelCheck {
   }
 
  private:
-  static constexpr int kStep = 3;
+  static constexpr int kStep = 5;
 
   [[nodiscard]] Levels measure(const Image8& photo) const {
     std::vector<double> outside;

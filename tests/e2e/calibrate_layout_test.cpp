@@ -34,7 +34,7 @@ TEST_F(LayoutTest, AProjectorThatIsOffIsLeftOutAndNamed) {
   rig.projectors[1].lumens = 1;
   const Output run = calibrate(rig);
   EXPECT_EQ(run.status, 0) << run.text;
-  EXPECT_THAT(run.text, HasSubstr("projector p2: 0 of 100 blobs found"));
+  EXPECT_THAT(run.text, HasSubstr("projector p2: p2/white.png: no brighter than black"));
   EXPECT_THAT(run.text, HasSubstr("is the projector on"));
   const auto calibration = calib::loadCalibration(wall());
   EXPECT_EQ(calibration.projectors.size(), 2u);

@@ -69,7 +69,7 @@ TEST_F(PhotosTest, BlobsNotFoundGivesProjectorCountAndCause) {
     fs::copy_file(photos() / "p2/black.png", photo.path() == photos() / "p2/black.png" ? photos() / "x" : photo.path(),
                   fs::copy_options::overwrite_existing);
   }
-  expectRefused({"projector p2", "0 of 100 blobs", "no brighter"});
+  expectRefused({"projector p2", "p2/white.png", "no brighter than black"});
 }
 
 TEST_F(PhotosTest, AnOverExposedPhotographIsCalledSo) {
