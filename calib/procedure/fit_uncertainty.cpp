@@ -116,7 +116,8 @@ void FitUncertainty::addWindow(glm::dvec2 p, Local& local) const {
 
 std::optional<FitUncertainty::Local> FitUncertainty::at(glm::dvec2 pointInWall) const {
   const auto p = mapping_.projectorFromWall(pointInWall);
-  const double density = p ? mapping_.density(*p) : 0;
+  if (!p) return std::nullopt;
+  const double density = mapping_.density(*p);
   if (!(density > 0)) return std::nullopt;
   Local local;
   if (modelVariance_ <= 0) return local;

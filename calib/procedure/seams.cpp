@@ -137,12 +137,14 @@ class SeamFinder {
 
   void describeVisible(const Site& a, const Site& b, std::vector<glm::dvec2> lit, glm::dvec2 step, Seam& seam) const {
     std::erase_if(lit, [this](glm::dvec2 point) { return !shown(point); });
-    if (lit.empty()) return;
+    if (lit.empty() || !display_) return;
     seam.insideDisplay = true;
-    seam.narrowest = narrowest(a, b, axesOf(lit, step));
+    seam.narrowest =
+        narrowest(a, b, axesOf(lit, step)) * display_->resolution.width / (display_->right - display_->left);
     expect(a, b, lit, seam);
   }
 
+  /// Wall units.
   [[nodiscard]] double narrowest(const Site& a, const Site& b, const Axes& axes) const {
     const glm::dvec2 step = (axes.extent.high - axes.extent.low) / double{kStations};
     int fewest = kStations;
@@ -155,7 +157,7 @@ class SeamFinder {
       }
       fewest = std::min(fewest, wide);
     }
-    return fewest * step.y * display_->resolution.width / (display_->right - display_->left);
+    return fewest * step.y;
   }
 
   static void expect(const Site& a, const Site& b, const std::vector<glm::dvec2>& lit, Seam& seam) {

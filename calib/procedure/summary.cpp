@@ -48,7 +48,7 @@ double overlapOf(const ProjectorCalibration& own, const std::vector<ProjectorMap
   const glm::dvec2 step = glm::dvec2(own.resolution.width, own.resolution.height) / double{kSteps};
   double all = 0, shared = 0;
   for (int i = 0; i < kSteps * kSteps; ++i) {
-    const glm::dvec2 p = step * glm::dvec2(i % kSteps + 0.5, i / kSteps + 0.5);
+    const glm::dvec2 p = step * glm::dvec2(i % kSteps + 0.5, static_cast<int>(i / kSteps) + 0.5);
     const auto inWall = mapping.wallFromProjector(p);
     const double density = mapping.density(p);
     if (!inWall || density <= 0) continue;

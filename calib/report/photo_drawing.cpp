@@ -31,12 +31,12 @@ struct Shot {
   const SurfaceFit* surface = nullptr;
 };
 
-std::vector<Shot> shotsOf(const fs::path& folder, const Calibration& calibration,
+std::vector<Shot> shotsOf(const fs::path& folder, const SurfaceFit& first, const std::vector<SurfaceFit>& further,
                           const ProjectorCalibration& projector) {
-  std::vector<std::pair<fs::path, const SurfaceFit*>> places = {
-      {folder / "captures", &*calibration.surface}, {folder / "captures" / "place1", &*calibration.surface}};
-  for (std::size_t i = 0; i < calibration.places.size(); ++i) {
-    places.emplace_back(folder / "captures" / ("place" + std::to_string(i + 2)), &calibration.places[i]);
+  std::vector<std::pair<fs::path, const SurfaceFit*>> places = {{folder / "captures", &first},
+                                                                {folder / "captures" / "place1", &first}};
+  for (std::size_t i = 0; i < further.size(); ++i) {
+    places.emplace_back(folder / "captures" / ("place" + std::to_string(i + 2)), &further[i]);
   }
   const bool dense = projector.samples.size() > kMostBlobs;
   std::vector<Shot> shots;
@@ -52,12 +52,12 @@ std::vector<Shot> shotsOf(const fs::path& folder, const Calibration& calibration
 
 class PhotoDrawing {
  public:
-  PhotoDrawing(const Calibration& calibration, const ProjectorCalibration& projector, const SurfaceFit& surface)
+  PhotoDrawing(const CameraIntrinsics& camera, const ProjectorCalibration& projector, const SurfaceFit& surface)
       : projector_(projector),
         mapping_(projector.model, projector.resolution),
-        camera_(*calibration.camera),
+        camera_(camera),
         view_(surface),
-        size_(calibration.camera->size) {
+        size_(camera.size) {
     for (const auto& point : footprint(mapping_)) {
       const glm::dvec2 p = photoFromWall(point);
       border_.push_back(p);
@@ -164,8 +164,8 @@ std::string drawPhotograph(const fs::path& folder, const Calibration& calibratio
   if (!calibration.camera || !calibration.surface || projector.samples.empty()) return "";
   std::string best;
   double largest = 0;
-  for (const auto& shot : shotsOf(folder, calibration, projector)) {
-    const PhotoDrawing drawing(calibration, projector, *shot.surface);
+  for (const auto& shot : shotsOf(folder, *calibration.surface, calibration.places, projector)) {
+    const PhotoDrawing drawing(*calibration.camera, projector, *shot.surface);
     if (drawing.area() <= largest) continue;
     try {
       const devices::Image8 photo = devices::readPhoto(shot.file);

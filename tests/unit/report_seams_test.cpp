@@ -63,7 +63,7 @@ class MeasuredRig {
     ProjectorCalibration projector{.name = config.name, .resolution = config.resolution};
     for (int k = 0; k < 100; ++k) {
       const glm::dvec2 p = glm::dvec2(config.resolution.width, config.resolution.height) *
-                           glm::dvec2(0.02 + 0.96 * (k % 10) / 9, 0.02 + 0.96 * (k / 10) / 9);
+                           glm::dvec2(0.02 + 0.96 * (k % 10) / 9, 0.02 + 0.96 * static_cast<int>(k / 10) / 9);
       projector.samples.push_back({p, landing(i, p + glm::dvec2(noise(random_), noise(random_))).value()});
     }
     const ProjectorFit fit = fitProjector(projector.samples, projector.resolution);

@@ -36,8 +36,8 @@ struct Fault {
   const char* where;
   const char* what;
 };
-void PrintTo(const Fault& fault, std::ostream* out) {
-  *out << fault.name;
+std::ostream& operator<<(std::ostream& out, const Fault& fault) {
+  return out << fault.name;
 }
 
 ProjectorCalibration& second(PlainWall& plain) {
