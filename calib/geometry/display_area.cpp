@@ -2,59 +2,77 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 namespace pixelflex::calib {
 namespace {
 
-struct Bounds {
-  glm::dvec2 low{std::numeric_limits<double>::max()};
-  glm::dvec2 high{std::numeric_limits<double>::lowest()};
+/// Columns of a row from where on upwards they are covered: all of them from row `top` to this one.
+struct Stretch {
+  int from = 0, to = 0;
+  int top = 0;
 };
 
-Bounds boundsOf(std::span<const Outline> footprints) {
-  Bounds bounds;
-  for (const auto& outline : footprints) {
-    for (const auto& point : outline) {
-      bounds.low = {std::min(bounds.low.x, point.x), std::min(bounds.low.y, point.y)};
-      bounds.high = {std::max(bounds.high.x, point.x), std::max(bounds.high.y, point.y)};
+void append(std::vector<Stretch>& stretches, const Stretch& next) {
+  if (next.from >= next.to) return;
+  const bool goesOn = !stretches.empty() && stretches.back().to == next.from && stretches.back().top == next.top;
+  if (goesOn) {
+    stretches.back().to = next.to;
+  } else {
+    stretches.push_back(next);
+  }
+}
+
+/// From the stretches of the row above to those of row `y`.
+std::vector<Stretch> descend(const std::vector<Stretch>& above, const RowSpans& row, int y) {
+  std::vector<Stretch> stretches;
+  auto next = above.begin();
+  for (const Span& span : row) {
+    int x = span.from;
+    while (next != above.end() && next->to <= x) ++next;
+    for (auto old = next; old != above.end() && old->from < span.to; ++old) {
+      append(stretches, {x, old->from, y});
+      append(stretches, {std::max(x, old->from), std::min(old->to, span.to), old->top});
+      x = std::min(old->to, span.to);
     }
+    append(stretches, {x, span.to, y});
   }
-  return bounds;
+  return stretches;
 }
 
-/// The x positions, sorted, where a horizontal line crosses the outline; inside is between each pair. A line along the
-/// outline's top or bottom counts as inside.
-std::vector<double> crossings(const Outline& outline, double y) {
-  const auto [top, bottom] = std::ranges::minmax(outline, {}, &glm::dvec2::y);
-  const double hair = 1e-9 * (bottom.y - top.y);
-  if (y < top.y - hair || y > bottom.y + hair) return {};
-  y = std::clamp(y, top.y + hair, bottom.y - hair);
-  std::vector<double> xs;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const glm::dvec2 a = outline[i];
-    const glm::dvec2 b = outline[(i + 1) % outline.size()];
-    if ((a.y <= y) != (b.y <= y)) xs.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+/// Calls `visit` with every rectangle that ends on row `y` and can grow neither up nor sideways.
+template <class Visit>
+void visitMaximal(const std::vector<Stretch>& stretches, int y, const Visit& visit) {
+  struct Open {
+    int left, top;
+  };
+  std::vector<Open> open;  // tops rising up the wall from left to right
+  const auto close = [&](int top, int right) {
+    int left = right;
+    for (; !open.empty() && open.back().top < top; open.pop_back()) {
+      left = open.back().left;
+      visit(CellRect{left, open.back().top, right, y + 1});
+    }
+    return left;
+  };
+  int end = 0;
+  for (const Stretch& stretch : stretches) {
+    if (stretch.from > end) close(y + 1, end);
+    const int left = close(stretch.top, stretch.from);
+    if (open.empty() || open.back().top > stretch.top) open.push_back({left, stretch.top});
+    end = stretch.to;
   }
-  std::ranges::sort(xs);
-  return xs;
+  close(y + 1, end);
 }
 
-/// Turns a row or column of flags into: is every flag within `margin` set? Outside counts as not set.
-void erodeLine(unsigned char* line, std::size_t count, std::size_t stride, int margin) {
-  int lastClear = -1;
-  std::vector<int> clearBefore(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (line[i * stride] == 0) lastClear = static_cast<int>(i);
-    clearBefore[i] = lastClear;
-  }
-  int nextClear = static_cast<int>(count);
-  for (std::size_t k = count; k-- > 0;) {
-    const int i = static_cast<int>(k);
-    if (line[k * stride] == 0) nextClear = i;
-    if (i - clearBefore[k] <= margin || nextClear - i <= margin) line[k * stride] = 0;
+/// Calls `visit` with every covered rectangle that cannot grow (and others).
+template <class Visit>
+void visitMaximal(const Coverage& coverage, const Visit& visit) {
+  std::vector<Stretch> stretches;
+  for (int y = 0; y < coverage.height(); ++y) {
+    stretches = descend(stretches, coverage.row(y), y);
+    visitMaximal(stretches, y, visit);
   }
 }
 
@@ -65,62 +83,26 @@ double centrality(const CellRect& rect, const Coverage& coverage) {
 }
 
 void keepBetter(std::optional<CellRect>& best, const CellRect& candidate, const Coverage& coverage) {
-  if (candidate.area() <= 0) return;
   if (!best || candidate.area() > best->area() ||
       (candidate.area() == best->area() && centrality(candidate, coverage) > centrality(*best, coverage))) {
     best = candidate;
   }
 }
 
-/// Of all rectangles that end on this row, given how many covered cells stand above each column.
-void scanHistogram(const std::vector<int>& heights, int row, const Coverage& coverage, std::optional<CellRect>& best) {
-  std::vector<std::pair<int, int>> open;  // (first column, height), heights rising
-  for (int x = 0; x <= static_cast<int>(heights.size()); ++x) {
-    const int height = x < static_cast<int>(heights.size()) ? heights[static_cast<std::size_t>(x)] : 0;
-    int start = x;
-    while (!open.empty() && open.back().second > height) {
-      const auto [left, tall] = open.back();
-      open.pop_back();
-      keepBetter(best, {left, row + 1 - tall, x, row + 1}, coverage);
-      start = left;
-    }
-    if (height > 0 && (open.empty() || open.back().second < height)) open.emplace_back(start, height);
-  }
+int widthOf(int height, double ratio) {
+  return std::max(1, static_cast<int>(std::lround(height * ratio)));
 }
 
-/// Number of covered cells above and left of each lattice corner.
-class SummedArea {
- public:
-  explicit SummedArea(const Coverage& coverage) : stride_(static_cast<std::size_t>(coverage.width()) + 1) {
-    sums_.resize(stride_ * (static_cast<std::size_t>(coverage.height()) + 1));
-    for (int y = 0; y < coverage.height(); ++y) {
-      std::int32_t row = 0;
-      for (int x = 0; x < coverage.width(); ++x) {
-        row += coverage.covered(x, y) ? 1 : 0;
-        at(x + 1, y + 1) = row + at(x + 1, y);
-      }
-    }
-  }
-  [[nodiscard]] bool full(const CellRect& r) {
-    return at(r.right, r.bottom) - at(r.left, r.bottom) - at(r.right, r.top) + at(r.left, r.top) == r.area();
-  }
-
- private:
-  std::int32_t& at(int x, int y) { return sums_[static_cast<std::size_t>(y) * stride_ + static_cast<std::size_t>(x)]; }
-  std::size_t stride_;
-  std::vector<std::int32_t> sums_;
-};
-
-/// The most central full rectangle of this size.
-std::optional<CellRect> findOfSize(const Coverage& coverage, SummedArea& sums, int width, int height) {
-  std::optional<CellRect> best;
-  for (int y = 0; y + height <= coverage.height(); ++y) {
-    for (int x = 0; x + width <= coverage.width(); ++x) {
-      const CellRect candidate{x, y, x + width, y + height};
-      if (sums.full(candidate)) keepBetter(best, candidate, coverage);
-    }
-  }
-  return best;
+/// The largest rectangle of this ratio inside another, as near to the lattice's middle as it can be.
+std::optional<CellRect> largestInside(const CellRect& room, double ratio, const Coverage& coverage) {
+  const int across = room.right - room.left;
+  int height = static_cast<int>(std::min<double>(room.bottom - room.top, std::floor((across + 0.5) / ratio) + 1));
+  while (height > 0 && widthOf(height, ratio) > across) --height;
+  if (height == 0) return std::nullopt;
+  const int width = widthOf(height, ratio);
+  const int left = std::clamp((coverage.width() - width) / 2, room.left, room.right - width);
+  const int top = std::clamp((coverage.height() - height) / 2, room.top, room.bottom - height);
+  return CellRect{left, top, left + width, top + height};
 }
 
 double desktopDensity(std::span<const double> densities, const DesktopRequest& request) {
@@ -134,71 +116,19 @@ double desktopDensity(std::span<const double> densities, const DesktopRequest& r
 
 }  // namespace
 
-Coverage::Coverage(std::span<const Outline> footprints, double pixelsPerUnit) : pixelsPerUnit_(pixelsPerUnit) {
-  if (footprints.empty()) throw GeometryError("no projector lights the wall");
-  const Bounds bounds = boundsOf(footprints);
-  const glm::dvec2 cells = (bounds.high - bounds.low) * pixelsPerUnit;
-  if (!(cells.x >= 1 && cells.y >= 1)) throw GeometryError("the lit area is smaller than a desktop pixel");
-  if (!(cells.x * cells.y <= double(1 << 29))) {
-    throw GeometryError("the lit area would need a desktop of over 2^29 pixels; lower desktop: density in wall.yaml");
-  }
-  origin_ = bounds.low;
-  width_ = static_cast<int>(cells.x);
-  height_ = static_cast<int>(cells.y);
-  cells_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  for (const auto& outline : footprints) addFootprint(outline);
-}
-
-void Coverage::addFootprint(const Outline& outline) {
-  constexpr double kHair = 1e-6;  // cells: a corner on the outline is inside, whatever the rounding
-  std::vector<double> above;
-  for (int y = 0; y <= height_; ++y) {
-    auto below = crossings(outline, origin_.y + y / pixelsPerUnit_);
-    for (std::size_t i = 0; i + 1 < std::min(above.size(), below.size()); i += 2) {
-      const double left = std::max(above[i], below[i]);
-      const double right = std::min(above[i + 1], below[i + 1]);
-      const int from = std::max(0, static_cast<int>(std::ceil((left - origin_.x) * pixelsPerUnit_ - kHair)));
-      const int to = std::min(width_, static_cast<int>(std::floor((right - origin_.x) * pixelsPerUnit_ + kHair)));
-      for (int x = from; x < to; ++x) cells_[index(x, y - 1)] = 1;
-    }
-    above = std::move(below);
-  }
-}
-
-void Coverage::erode(int margin) {
-  if (margin <= 0) return;
-  const auto width = static_cast<std::size_t>(width_);
-  const auto height = static_cast<std::size_t>(height_);
-  for (std::size_t y = 0; y < height; ++y) erodeLine(&cells_[y * width], width, 1, margin);
-  for (std::size_t x = 0; x < width; ++x) erodeLine(&cells_[x], height, width, margin);
-}
-
 std::optional<CellRect> largestRectangle(const Coverage& coverage) {
   std::optional<CellRect> best;
-  std::vector<int> heights(static_cast<std::size_t>(coverage.width()), 0);
-  for (int y = 0; y < coverage.height(); ++y) {
-    for (int x = 0; x < coverage.width(); ++x) {
-      auto& height = heights[static_cast<std::size_t>(x)];
-      height = coverage.covered(x, y) ? height + 1 : 0;
-    }
-    scanHistogram(heights, y, coverage, best);
-  }
+  visitMaximal(coverage, [&](const CellRect& found) { keepBetter(best, found, coverage); });
   return best;
 }
 
 std::optional<CellRect> largestRectangle(const Coverage& coverage, AspectRatio aspect) {
-  SummedArea sums(coverage);
   const double ratio = aspect.width / aspect.height;
   std::optional<CellRect> best;
-  int fits = 0;
-  int tooHigh = coverage.height() + 1;
-  while (tooHigh - fits > 1) {
-    const int height = (fits + tooHigh) / 2;
-    const int width = std::max(1, static_cast<int>(std::lround(height * ratio)));
-    const auto found = findOfSize(coverage, sums, width, height);
-    (found ? fits : tooHigh) = height;
-    if (found) best = found;
-  }
+  visitMaximal(coverage, [&](const CellRect& room) {
+    if (best && room.area() < best->area()) return;
+    if (const auto found = largestInside(room, ratio, coverage)) keepBetter(best, *found, coverage);
+  });
   return best;
 }
 
