@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <set>
 #include <utility>
 
 #include "calib/capture/capture_folder.h"
@@ -81,6 +82,19 @@ std::optional<Photographs::Named> FolderPhotographs::nextCheckerboard() {
   if (nextCheckerboard_ >= checkerboards_.size()) return std::nullopt;
   const Used& next = checkerboards_[nextCheckerboard_++];
   return Named{next.file.string(), read(next.file, next.relative)};
+}
+
+std::optional<Method> FolderPhotographs::methodTaken() {
+  std::set<Method> taken;
+  for (const auto& place : places_) {
+    for (const auto& projector : projectorFolders(place)) {
+      for (const Method method : {Method::kBlobs, Method::kDense}) {
+        constexpr devices::Size kAny{64, 64};
+        if (findPhoto(projector / patternsOf(method, kAny)[1].name)) taken.insert(method);
+      }
+    }
+  }
+  return taken.size() == 1 ? std::optional(*taken.begin()) : std::nullopt;
 }
 
 bool FolderPhotographs::hasFiducials() {

@@ -50,6 +50,9 @@ class Photographs {
   /// The wall with its markers in room light.
   [[nodiscard]] virtual Named fiducials() = 0;
 
+  /// The method whose patterns were photographed, where that is settled already.
+  [[nodiscard]] virtual std::optional<Method> methodTaken() { return std::nullopt; }
+
   /// Whether anything was photographed of this projector at all.
   [[nodiscard]] virtual bool hasProjector(const std::string& projector) = 0;
   /// One pattern on this projector, every other one black.

@@ -89,10 +89,13 @@ std::vector<std::string> Procedure::runOnly() {
   return ran;
 }
 
-/// The method asked for; else the one with which what is stored was measured, so that nothing counts as stale for want
-/// of an option; else blobs.
+/// The method asked for; else the one that was photographed; else the one with which what is stored was measured, so
+/// that nothing counts as stale for want of an option; else blobs.
 Method Procedure::chooseMethod() const {
   if (options_.method) return *options_.method;
+  if (photographs_ != nullptr) {
+    if (const auto taken = photographs_->methodTaken()) return *taken;
+  }
   const bool dense = std::ranges::any_of(calibration_.projectors,
                                          [](const auto& projector) { return projector.quality.shown > kBlobCount; });
   return dense ? Method::kDense : Method::kBlobs;

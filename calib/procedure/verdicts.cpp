@@ -77,7 +77,7 @@ class Judge {
     const double error = calibration_.surface->rms * density;
     if (error <= kNoticeFiducial) return;
     add(above(error, kBadFiducial), "surface",
-        fmt::format("the fiducials fit the wall to {:.2f} ", calibration_.surface->rms) + wall_.surface.units +
+        fmt::format("the fiducials fit the wall to {:.2f} ", calibration_.surface->rms) + wall_.surface.wallUnits() +
             fmt::format(" only, {:.1f} projector pixels", error),
         "a marker's place was measured or typed wrongly, or the wall is not of the shape that wall.yaml says",
         "measure the markers' places again; the desktop is skewed by as much, seams are not affected");

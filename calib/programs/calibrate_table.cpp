@@ -29,7 +29,7 @@ std::string formatFindings(const Summary& summary, const std::vector<Finding>& f
 std::string formatTable(const Wall& wall, const Calibration& calibration, const Summary& summary) {
   std::size_t width = std::string_view("projector").size();
   for (const auto& projector : summary.projectors) width = std::max(width, projector.name.size());
-  const std::string& units = wall.surface.units;
+  const std::string units = wall.surface.wallUnits();
   std::string table = fmt::format("{:<{}}  {:>7}  {:>7} {:>7} {:>7}  {:>7}  {:>8}  {:>8}\n", "projector", width,
                                   "blobs", "rms px", "p95 px", "max px", "px/" + units, "overlap", "display");
   for (const auto& projector : summary.projectors) table += projectorLine(projector, width);
@@ -39,7 +39,7 @@ std::string formatTable(const Wall& wall, const Calibration& calibration, const 
                                               camera->photos, camera->rmsPx)
                                 : "known intrinsics\n";
   }
-  if (const auto& surface = calibration.surface) {
+  if (const auto& surface = calibration.surface; surface && wall.surface.shape != SurfaceShape::kCamera) {
     table += fmt::format("{:<{}}  fiducials fit to {:.3f} {} rms\n", "surface", width, surface->rms, units);
   }
   if (const auto& d = calibration.display) {

@@ -55,7 +55,7 @@ std::string plain(double value) {
 }
 
 std::string unitsOf(const Wall& wall) {
-  return wall.isFlat() ? "px" : wall.surface.units;
+  return wall.isFlat() ? "px" : wall.surface.wallUnits();
 }
 
 }  // namespace pixelflex::calib

@@ -144,9 +144,10 @@ std::string measurementTable(const Wall& wall, const Calibration& calibration) {
                             ? fmt::format("{} photographs, reproduced to {:.3f} camera pixels rms", c->photos, c->rmsPx)
                             : "none: known intrinsics");
   }
-  if (const auto& s = calibration.surface) {
+  if (wall.surface.shape == SurfaceShape::kCamera) row("Surface", "as the camera sees it; right from where it stands");
+  if (const auto& s = calibration.surface; s && wall.surface.shape != SurfaceShape::kCamera) {
     row("Surface", fmt::format("{} fiducials fit to {:.3f} {} rms{}", wall.surface.fiducials.size(), s->rms,
-                               escaped(wall.surface.units),
+                               escaped(wall.surface.wallUnits()),
                                s->bend ? fmt::format("; cylinder of radius {:.1f}", s->bend->radius) : ""));
     if (!calibration.places.empty()) row("Camera places", std::to_string(calibration.places.size() + 1));
   }

@@ -24,6 +24,8 @@ struct Surface {
   double cylinderRadius = 0;  // wall units; only for kCylinder
   std::string units = "mm";
   std::vector<Fiducial> fiducials;
+  /// Of wall coordinates: camera pixels where the wall is what the camera sees.
+  [[nodiscard]] std::string wallUnits() const { return shape == SurfaceShape::kCamera ? "px" : units; }
   bool operator==(const Surface&) const = default;
 };
 

@@ -98,7 +98,7 @@ TEST_F(CurvedTest, ACylinderIsUnrolled) {
 
 TEST_F(CurvedTest, TheMethodIsRememberedAndSolvedAgainOffline) {
   const fs::path wall = shared_->variant("offline", "source: sim", "source: photos");
-  const Output run = calibrate(wall, {"--photos", captures(), "--method", "dense"});
+  const Output run = calibrate(wall, {"--photos", captures()});
   ASSERT_EQ(run.status, 0) << run.text;
   EXPECT_EQ(calib::loadCalibration(wall).projectors, calib::loadCalibration(shared_->wall()).projectors);
   const Output again = calibrate(wall, {});
@@ -108,7 +108,7 @@ TEST_F(CurvedTest, TheMethodIsRememberedAndSolvedAgainOffline) {
 
 TEST_F(CurvedTest, APlaneIsRefusedWithTheMeasuredBow) {
   const fs::path wall = shared_->variant("plane", "shape: {cylinder: {radius: 3000}}\n", "shape: planar\n");
-  const Output run = calibrate(wall, {"--photos", captures(), "--method", "dense"});
+  const Output run = calibrate(wall, {"--photos", captures()});
   EXPECT_EQ(run.status, 1) << run.text;
   EXPECT_THAT(run.text, HasSubstr("the screen is not flat: it bows by about"));
   EXPECT_THAT(run.text, HasSubstr("a radius of about 30"));  // 3000, to two per cent
@@ -136,7 +136,7 @@ TEST_F(CurvedTest, APlaneThroughFourCornersIsRefusedByThePictures) {
     }
   }
   writeText(wall / "wall.yaml", text);
-  const Output run = calibrate(wall, {"--photos", captures(), "--method", "dense"});
+  const Output run = calibrate(wall, {"--photos", captures()});
   EXPECT_EQ(run.status, 1) << run.text;
   EXPECT_THAT(run.text, ::testing::ContainsRegex("projector p[12]: the screen is not flat: it bows by about"));
   EXPECT_FALSE(fs::exists(wall / "calibration.yaml"));
@@ -144,7 +144,7 @@ TEST_F(CurvedTest, APlaneThroughFourCornersIsRefusedByThePictures) {
 
 TEST_F(CurvedTest, ShapeCameraIsRightFromTheCamera) {
   const fs::path wall = shared_->variant("camera", "shape: {cylinder: {radius: 3000}}\n", "shape: camera\n");
-  const Output run = calibrate(wall, {"--photos", captures(), "--method", "dense"});
+  const Output run = calibrate(wall, {"--photos", captures()});
   ASSERT_EQ(run.status, 0) << run.text;
   const auto calibration = calib::loadCalibration(wall);
   const calib::CameraMapping camera(calibration.camera.value());
