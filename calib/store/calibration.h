@@ -92,6 +92,18 @@ struct FitQuality {
   bool operator==(const FitQuality&) const = default;
 };
 
+/// What makes the projectors' light alike. Linear light x of the desktop (1 is white) becomes
+/// alpha * gain * (colour x) + black in this projector's own linear light, per channel, before its inverse response.
+struct LightMatch {
+  std::array<double, 9> colour{1, 0, 0, 0, 1, 0, 0, 0, 1};  // row major
+  std::optional<std::string>
+      gain;  // 16-bit grey PNG stretched over the frame, 65535 = 1; relative to the wall's folder
+  std::optional<std::string> black;  // 16-bit grey PNG of the projector's resolution, 65535 = kLargestBlackLift
+  bool operator==(const LightMatch&) const = default;
+};
+
+inline constexpr double kLargestBlackLift = 0.0625;
+
 struct ProjectorCalibration {
   std::string name;
   devices::Size resolution;
@@ -100,7 +112,8 @@ struct ProjectorCalibration {
   FitQuality quality;
   std::optional<std::string> alpha;  // 16-bit PNG of the projector's resolution, relative to the wall's folder
   std::optional<std::string>
-      response;                      // 256 rows value,red,green,blue; normalised light, relative to the wall's folder
+      response;  // 256 rows value,red,green,blue; normalised light, relative to the wall's folder
+  std::optional<LightMatch> light;
   std::optional<Nudge> nudge;        // from nudge.yaml; not part of calibration.yaml
   std::optional<glm::ivec2> flatAt;  // an exact screen: shows desktop pixels one to one from here
   bool operator==(const ProjectorCalibration&) const = default;

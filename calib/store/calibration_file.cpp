@@ -132,6 +132,15 @@ FitQuality readQuality(const Node& node) {
   return quality;
 }
 
+LightMatch readLight(const Node& node) {
+  LightMatch light;
+  light.colour = readArray<9>(node.required("colour"));
+  if (const Node file = node.optional("gain"); file.defined()) light.gain = readText(file, kMaxPath);
+  if (const Node file = node.optional("black"); file.defined()) light.black = readText(file, kMaxPath);
+  node.refuseUnknownKeys();
+  return light;
+}
+
 ProjectorCalibration readProjector(const Node& node) {
   ProjectorCalibration projector;
   projector.name = readName(node.required("name"));
@@ -145,6 +154,7 @@ ProjectorCalibration readProjector(const Node& node) {
   if (const Node quality = node.optional("quality"); quality.defined()) projector.quality = readQuality(quality);
   if (const Node alpha = node.optional("alpha"); alpha.defined()) projector.alpha = readText(alpha, kMaxPath);
   if (const Node file = node.optional("response"); file.defined()) projector.response = readText(file, kMaxPath);
+  if (const Node light = node.optional("light"); light.defined()) projector.light = readLight(light);
   projector.flatAt = readFlat(node.optional("flat"), projector.resolution);
   node.refuseUnknownKeys();
   return projector;

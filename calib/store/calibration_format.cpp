@@ -82,12 +82,20 @@ std::string samplesText(const std::vector<Sample>& samples) {
   return text;
 }
 
+std::string lightText(const LightMatch& light) {
+  std::string text = fmt::format("    light: {{colour: {}", yamlList(light.colour));
+  if (light.gain) text += ", gain: " + yamlText(*light.gain);
+  if (light.black) text += ", black: " + yamlText(*light.black);
+  return text + "}\n";
+}
+
 std::string projectorText(const ProjectorCalibration& projector) {
   std::string text =
       fmt::format("  - name: {}\n    resolution: [{}, {}]\n{}{}", yamlText(projector.name), projector.resolution.width,
                   projector.resolution.height, modelText(projector.model), qualityText(projector.quality));
   if (projector.alpha) text += fmt::format("    alpha: {}\n", yamlText(*projector.alpha));
   if (projector.response) text += fmt::format("    response: {}\n", yamlText(*projector.response));
+  if (projector.light) text += lightText(*projector.light);
   if (const auto& at = projector.flatAt) text += fmt::format("    flat: {{at: [{}, {}]}}\n", at->x, at->y);
   return text + samplesText(projector.samples);
 }
