@@ -153,7 +153,7 @@ TEST(ResponseCurve, RefusesWhatIsNoResponse) {
   expectRefused("", "found 0");
   expectRefused("0,1,1,1\n1,2,2\n", ":2:");
   expectRefused("0,1,1,1\n2,2,2,2\n", ":2:");
-  expectRefused("0,1,1,-1\n", ":1: a reading is negative");
+  expectRefused("0,1,1,-1\n", ":1: light cannot be negative");
   std::string flat;
   for (int v = 0; v < 256; ++v) flat += std::to_string(v) + ",1,1,1\n";
   expectRefused(flat, "do not rise");
