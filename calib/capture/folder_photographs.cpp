@@ -97,6 +97,14 @@ std::optional<Method> FolderPhotographs::methodTaken() {
   return taken.size() == 1 ? std::optional(*taken.begin()) : std::nullopt;
 }
 
+std::optional<BlobSize> FolderPhotographs::blobSizeTaken(const std::string& projector) {
+  for (const BlobSize size : {BlobSize::kFine, BlobSize::kCoarse}) {
+    const auto blobs = projected(Pattern::kBlobs, BlobLayout({64, 64}, size));
+    if (findPhoto(here() / patternPath(projector, blobs))) return size;
+  }
+  return BlobSize::kUsual;
+}
+
 bool FolderPhotographs::hasFiducials() {
   return findPhoto(here() / "fiducials").has_value();
 }

@@ -23,6 +23,7 @@ class FolderPhotographs : public Photographs {
   [[nodiscard]] std::optional<Named> nextCheckerboard() override;
   [[nodiscard]] int checkerboardCount() const override { return static_cast<int>(checkerboards_.size()); }
   [[nodiscard]] std::optional<Method> methodTaken() override;
+  [[nodiscard]] std::optional<BlobSize> blobSizeTaken(const std::string& projector) override;
   [[nodiscard]] bool hasFiducials() override;
   [[nodiscard]] Named fiducials() override;
   [[nodiscard]] bool hasProjector(const std::string& projector) override;

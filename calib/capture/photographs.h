@@ -53,6 +53,9 @@ class Photographs {
   /// The method whose patterns were photographed, where that is settled already.
   [[nodiscard]] virtual std::optional<Method> methodTaken() { return std::nullopt; }
 
+  /// The size of blobs in this projector's photographs, where that is settled already.
+  [[nodiscard]] virtual std::optional<BlobSize> blobSizeTaken(const std::string& /*projector*/) { return std::nullopt; }
+
   /// Whether anything was photographed of this projector at all.
   [[nodiscard]] virtual bool hasProjector(const std::string& projector) = 0;
   /// One pattern on this projector, every other one black.

@@ -134,6 +134,14 @@ std::optional<FrameLight> findFrame(const PatternPhotoRefs& photos) {
   return frame;
 }
 
+double cameraScaleOf(const Image8& black, const Image8& white, devices::Size resolution) {
+  PatternPhotoRefs photos{};
+  photos.fill(&white);
+  photos[indexOf(Pattern::kBlack)] = &black;
+  const auto frame = findFrame(photos);
+  return frame ? std::sqrt(static_cast<double>(frame->area) / static_cast<double>(resolution.area())) : 0;
+}
+
 Image8 withoutRim(const FrameLight& frame, double rim) {
   const Image8& mask = frame.mask;
   const cv::Mat inside(mask.height(), mask.width(), CV_8UC1, const_cast<std::uint8_t*>(mask.samples().data()));

@@ -37,6 +37,10 @@ struct FrameLight {
 /// What is lit in white - black, without specks; none when nothing is.
 [[nodiscard]] std::optional<FrameLight> findFrame(const PatternPhotoRefs& photos);
 
+/// Camera pixels per projector pixel, from the photographs of black and white alone; 0 when nothing is lit.
+[[nodiscard]] double cameraScaleOf(const devices::Image8& black, const devices::Image8& white,
+                                   devices::Size resolution);
+
 /// The frame without a rim of this many camera pixels, where blur mixes it with the dark beside it.
 [[nodiscard]] devices::Image8 withoutRim(const FrameLight& frame, double rim);
 

@@ -33,12 +33,30 @@ void drawBlob(devices::Image8& image, glm::dvec2 centre, double lightSigma) {
   }
 }
 
+/// Nine keep a window of 3.2 sigma free of the neighbours (calibration reference 1.2 asks for seven at least).
+double sigmasPerCell(BlobSize size) {
+  if (size == BlobSize::kFine) return 12;
+  return size == BlobSize::kCoarse ? 7 : 9;
+}
+
+std::string suffixOf(Pattern pattern, BlobSize size) {
+  if (pattern == Pattern::kBlack || pattern == Pattern::kWhite || size == BlobSize::kUsual) return "";
+  return size == BlobSize::kFine ? "-fine" : "-coarse";
+}
+
 }  // namespace
 
-// Spacing/9 keeps a window of 3.2 sigma free of the neighbours (calibration reference 1.2 asks for at most spacing/7).
-BlobLayout::BlobLayout(devices::Size resolution)
+BlobSize blobSizeFor(devices::Size resolution, double cameraScale) {
+  // Light is measured well from a sigma of two camera pixels on (calibration reference 1.2); five leave room for blur.
+  if (BlobLayout(resolution, BlobSize::kFine).sigma() * cameraScale >= 5) return BlobSize::kFine;
+  return BlobLayout(resolution).sigma() * cameraScale >= 2 ? BlobSize::kUsual : BlobSize::kCoarse;
+}
+
+BlobLayout::BlobLayout(devices::Size resolution, BlobSize size)
     : resolution_(resolution),
-      sigma_(std::min(resolution.width / double(kBlobColumns), resolution.height / double(kBlobRows)) / 9),
+      size_(size),
+      sigma_(std::min(resolution.width / double(kBlobColumns), resolution.height / double(kBlobRows)) /
+             sigmasPerCell(size)),
       margin_(2.5 * sigma_) {}
 
 glm::dvec2 BlobLayout::centre(int id) const {
@@ -95,7 +113,7 @@ devices::Image8 renderPattern(Pattern pattern, const BlobLayout& layout) {
 }
 
 ProjectedPattern projected(Pattern pattern, const BlobLayout& layout) {
-  return {patternName(pattern), patternDescription(pattern),
+  return {patternName(pattern) + suffixOf(pattern, layout.size()), patternDescription(pattern),
           [pattern, layout] { return renderPattern(pattern, layout); }};
 }
 

@@ -9,10 +9,10 @@ std::string methodName(Method method) {
   return method == Method::kBlobs ? "blobs" : "dense";
 }
 
-std::vector<ProjectedPattern> patternsOf(Method method, devices::Size resolution) {
+std::vector<ProjectedPattern> patternsOf(Method method, devices::Size resolution, BlobSize size) {
   if (method == Method::kDense) return densePatterns(resolution);
   std::vector<ProjectedPattern> patterns;
-  for (const Pattern pattern : allPatterns()) patterns.push_back(projected(pattern, BlobLayout(resolution)));
+  for (const Pattern pattern : allPatterns()) patterns.push_back(projected(pattern, BlobLayout(resolution, size)));
   return patterns;
 }
 

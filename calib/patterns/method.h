@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/patterns/blob_pattern.h"
 #include "calib/patterns/projected_pattern.h"
 #include "devices/image/size.h"
 
@@ -16,6 +17,7 @@ enum class Method { kBlobs, kDense };
 [[nodiscard]] std::string methodName(Method method);
 
 /// Every picture of a method, in the order that its decoder takes the photographs.
-[[nodiscard]] std::vector<ProjectedPattern> patternsOf(Method method, devices::Size resolution);
+[[nodiscard]] std::vector<ProjectedPattern> patternsOf(Method method, devices::Size resolution,
+                                                       BlobSize size = BlobSize::kUsual);
 
 }  // namespace pixelflex::calib

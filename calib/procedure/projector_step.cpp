@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "calib/patterns/blob_decoder.h"
+#include "calib/patterns/blob_light.h"
 #include "calib/patterns/dense_decoder.h"
 #include "calib/procedure/procedure_error.h"
 #include "calib/procedure/wording.h"
@@ -24,6 +25,7 @@ constexpr double kMostSaturated = 0.05;
 
 /// What either method finds.
 struct ProjectorStep::Decoded {
+  BlobSize blobSize = BlobSize::kUsual;
   std::vector<PointPair> points;
   int shown = 0;
   double cameraScale = 0;
@@ -32,12 +34,12 @@ struct ProjectorStep::Decoded {
   std::vector<PhotoProblem> problems;
   bool cutOff = false;
 
-  static Decoded fromBlobs(std::vector<devices::Image8> photos, devices::Size resolution, const CameraMapping& camera) {
-    const BlobLayout layout(resolution);
+  static Decoded fromBlobs(std::vector<devices::Image8> photos, const BlobLayout& layout, const CameraMapping& camera) {
     const auto own = std::make_unique<PatternPhotos>();
     std::ranges::move(photos, own->begin());
     const DecodedBlobs blobs = decodeBlobs(*own, layout, camera);
-    Decoded decoded{{}, kBlobCount, blobs.cameraScale, blobs.saturatedShare, blobs.hint, blobs.problems, blobs.cutOff};
+    Decoded decoded{layout.size(),        {},         kBlobCount,     blobs.cameraScale,
+                    blobs.saturatedShare, blobs.hint, blobs.problems, blobs.cutOff};
     for (const auto& blob : blobs.blobs) decoded.points.push_back({layout.centre(blob.id), blob.pointInUndistorted});
     return decoded;
   }
@@ -45,7 +47,7 @@ struct ProjectorStep::Decoded {
   static Decoded fromStripes(const std::vector<devices::Image8>& photos, devices::Size resolution,
                              const CameraMapping& camera) {
     const DenseSamples dense = decodeDense(photos, resolution, camera);
-    Decoded decoded{{}, dense.shown, dense.cameraScale, dense.saturatedShare, dense.hint, {}};
+    Decoded decoded{{}, {}, dense.shown, dense.cameraScale, dense.saturatedShare, dense.hint, {}};
     for (const auto& sample : dense.samples) {
       decoded.points.push_back({sample.pointInProjector, sample.pointInUndistorted});
     }
@@ -91,38 +93,46 @@ void ProjectorStep::decodePlace(std::size_t place, const std::vector<const Proje
   for (const auto* config : projectors) {
     const int after = done_ + static_cast<int>(patternsOf(method_, config->resolution).size());
     if (source_.hasProjector(config->name)) {
-      auto photos = photograph(*config);
+      BlobSize blobSize{};
+      auto photos = photograph(*config, blobSize);
       // One decoder at a time beside the camera: two cores, and a bounded number of photographs in memory.
       if (!pending.empty()) pending.back().decoded.wait();
       pending.push_back({config, place,
                          std::async(std::launch::async, [photos = std::move(photos), size = config->resolution,
-                                                         method = method_, camera]() mutable {
+                                                         method = method_, blobSize, camera]() mutable {
                            // Held here, not by the future: the photographs are many and large.
                            auto own = std::move(photos);
-                           return method == Method::kBlobs ? Decoded::fromBlobs(std::move(own), size, camera)
-                                                           : Decoded::fromStripes(own, size, camera);
+                           return method == Method::kBlobs
+                                      ? Decoded::fromBlobs(std::move(own), BlobLayout(size, blobSize), camera)
+                                      : Decoded::fromStripes(own, size, camera);
                          }).share()});
     }
     done_ = after;
   }
 }
 
-std::vector<devices::Image8> ProjectorStep::photograph(const ProjectorConfig& config) {
+std::vector<devices::Image8> ProjectorStep::photograph(const ProjectorConfig& config, BlobSize& size) {
   std::vector<devices::Image8> photos;
-  int shown = 0;
-  for (const auto& pattern : patternsOf(method_, config.resolution)) {
+  size = source_.blobSizeTaken(config.name).value_or(BlobSize::kUsual);
+  const std::size_t total = patternsOf(method_, config.resolution).size();
+  while (photos.size() < total) {
+    const auto pattern = patternsOf(method_, config.resolution, size)[photos.size()];
     photos.push_back(source_.pattern(config.name, pattern));
     const std::string file = patternPath(config.name, pattern).string();
     if (photos.back().size() != camera_.size) {
       throw ProcedureError(file + ": not of the size that the camera was calibrated at");
     }
-    progress_.advance(done_ + ++shown, total_, file);
+    progress_.advance(done_ + static_cast<int>(photos.size()), total_, file);
+    const bool free = !source_.blobSizeTaken(config.name);
+    if (photos.size() == 2 && free) {
+      size = blobSizeFor(config.resolution, cameraScaleOf(photos[0], photos[1], config.resolution));
+    }
   }
   return photos;
 }
 
 std::string ProjectorStep::problemWith(const ProjectorConfig& config, const Decoded& decoded, std::size_t place) {
-  const BlobLayout layout(config.resolution);
+  const BlobLayout layout(config.resolution, decoded.blobSize);
   const std::string from = source_.placeCount() > 1 ? "place " + std::to_string(place + 1) + ": " : "";
   for (const auto& problem : decoded.problems) {
     std::string files;

@@ -41,7 +41,8 @@ class ProjectorStep {
  private:
   struct Decoded;
   struct Pending;
-  [[nodiscard]] std::vector<devices::Image8> photograph(const ProjectorConfig& config);
+  /// In the order of patternsOf(). Black and white come first and tell how large blobs should be.
+  [[nodiscard]] std::vector<devices::Image8> photograph(const ProjectorConfig& config, BlobSize& size);
   void decodePlace(std::size_t place, const std::vector<const ProjectorConfig*>& projectors,
                    std::vector<Pending>& pending);
   /// Why the points may not be used; empty when they may. Warns of what does not keep them from use.

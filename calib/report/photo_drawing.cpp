@@ -6,8 +6,10 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <set>
+#include <string>
 #include <vector>
 
+#include "calib/capture/photo_files.h"
 #include "calib/geometry/camera_mapping.h"
 #include "calib/geometry/footprint.h"
 #include "calib/geometry/screen_view.h"
@@ -25,6 +27,10 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostBlobs = 150;
 constexpr int kPhotoWidth = 640;
 
+bool isDense(const ProjectorCalibration& projector) {
+  return projector.quality.shown > static_cast<int>(kMostBlobs);
+}
+
 /// A photograph of the projector and the camera's place that it was taken from.
 struct Shot {
   fs::path file;
@@ -38,13 +44,13 @@ std::vector<Shot> shotsOf(const fs::path& folder, const SurfaceFit& first, const
   for (std::size_t i = 0; i < further.size(); ++i) {
     places.emplace_back(folder / "captures" / ("place" + std::to_string(i + 2)), &further[i]);
   }
-  const bool dense = projector.samples.size() > kMostBlobs;
+  const bool dense = isDense(projector);
+  const std::vector<std::string> names =
+      dense ? std::vector<std::string>{"dense-white"} : std::vector<std::string>{"blobs", "blobs-fine", "blobs-coarse"};
   std::vector<Shot> shots;
   for (const auto& [place, surface] : places) {
-    for (const auto* ending : {".png", ".jpg", ".jpeg"}) {
-      const fs::path file = place / projector.name / (std::string(dense ? "white" : "blobs") + ending);
-      std::error_code ignored;
-      if (fs::is_regular_file(file, ignored)) shots.push_back({file, surface});
+    for (const auto& name : names) {
+      if (const auto file = findPhoto(place / projector.name / name)) shots.push_back({*file, surface});
     }
   }
   return shots;
@@ -84,7 +90,7 @@ class PhotoDrawing {
     svg += "<polygon class=\"edge\" points=\"";
     for (const auto& point : border_) svg += fmt::format("{:.1f},{:.1f} ", point.x, point.y);
     svg += fmt::format("\" stroke-width=\"{:.2f}\"/>\n", unit / 5);
-    svg += projector_.samples.size() > kMostBlobs ? drawDots(unit) : drawRings(unit);
+    svg += isDense(projector_) ? drawDots(unit) : drawRings(unit);
     return svg + "</svg>\n";
   }
 

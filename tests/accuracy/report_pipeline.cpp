@@ -71,11 +71,25 @@ std::vector<Centre> centresIn(const cv::Mat& photo) {
   return centres;
 }
 
+std::filesystem::path photoOf(const std::filesystem::path& folder, Pattern pattern, const BlobLayout& layout) {
+  return folder / (projected(pattern, layout).name + ".png");
+}
+
+/// The size of blobs that was shown.
+BlobLayout layoutOf(const std::filesystem::path& folder, devices::Size resolution) {
+  for (const BlobSize size : {BlobSize::kFine, BlobSize::kCoarse}) {
+    const BlobLayout layout(resolution, size);
+    if (std::filesystem::exists(photoOf(folder, Pattern::kBlobs, layout))) return layout;
+  }
+  return BlobLayout(resolution);
+}
+
 /// Seven photographs, the least significant bit first.
 void readIds(std::vector<Centre>& centres, const cv::Mat& all, const std::filesystem::path& folder,
-             const CameraIntrinsics& camera) {
+             const BlobLayout& layout, const CameraIntrinsics& camera) {
   for (int bit = 0; bit < kCodeBits; ++bit) {
-    const cv::Mat photo = undistorted(folder / ("bit" + std::to_string(bit) + ".png"), camera);
+    const cv::Mat photo =
+        undistorted(photoOf(folder, static_cast<Pattern>(static_cast<int>(Pattern::kBit0) + bit), layout), camera);
     for (auto& centre : centres) {
       const cv::Point at(cvRound(centre.at.x), cvRound(centre.at.y));
       if (photo.at<float>(at) > 0.5F * all.at<float>(at)) centre.id |= 1 << bit;
@@ -83,10 +97,11 @@ void readIds(std::vector<Centre>& centres, const cv::Mat& all, const std::filesy
   }
 }
 
-std::map<int, glm::dvec2> blobsOf(const std::filesystem::path& folder, const CameraIntrinsics& camera) {
-  const cv::Mat all = undistorted(folder / "blobs.png", camera);
+std::map<int, glm::dvec2> blobsOf(const std::filesystem::path& folder, const BlobLayout& layout,
+                                  const CameraIntrinsics& camera) {
+  const cv::Mat all = undistorted(photoOf(folder, Pattern::kBlobs, layout), camera);
   auto centres = centresIn(all);
-  readIds(centres, all, folder, camera);
+  readIds(centres, all, folder, layout, camera);
   std::map<int, glm::dvec2> blobs;
   for (const auto& centre : centres) {
     if (centre.id >= 1 && centre.id <= kBlobCount) blobs[centre.id] = {centre.at.x + 0.5, centre.at.y + 0.5};
@@ -127,8 +142,9 @@ MeantPlace meantByReportPipeline(const std::filesystem::path& captures, const Ca
   const Homography wallFromCamera(calibration.surface->wallFromCamera);
   auto meshes = std::make_shared<std::vector<Mesh>>();
   for (const auto& projector : calibration.projectors) {
-    const auto blobs = blobsOf(captures / projector.name, *calibration.camera);
-    meshes->push_back(meshOf(blobs, BlobLayout(projector.resolution), wallFromCamera));
+    const BlobLayout layout = layoutOf(captures / projector.name, projector.resolution);
+    const auto blobs = blobsOf(captures / projector.name, layout, *calibration.camera);
+    meshes->push_back(meshOf(blobs, layout, wallFromCamera));
   }
   return [meshes](std::size_t projector, glm::dvec2 p) { return placeIn(meshes->at(projector), p); };
 }
