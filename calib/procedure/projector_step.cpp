@@ -123,7 +123,8 @@ std::vector<devices::Image8> ProjectorStep::photograph(const ProjectorConfig& co
       throw ProcedureError(file + ": not of the size that the camera was calibrated at");
     }
     progress_.advance(done_ + static_cast<int>(photos.size()), total_, file);
-    const bool free = !source_.blobSizeTaken(config.name);
+    // Places are tied by the points that they share, so those must be the same everywhere.
+    const bool free = !source_.blobSizeTaken(config.name) && source_.placeCount() == 1;
     if (photos.size() == 2 && free) {
       size = blobSizeFor(config.resolution, cameraScaleOf(photos[0], photos[1], config.resolution));
     }
