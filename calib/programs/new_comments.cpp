@@ -47,10 +47,15 @@ constexpr std::array kRemarks = {
     Remark{"display:",
            "# The display area on the wall: `aspect` is any or W:H, `margin` the desktop pixels kept clear of the "
            "edge.\n"},
-    Remark{"desktop:",
-           "# The desktop's resolution: `density` is mean, max, or projector pixels per unit of the wall;\n"
-           "# `oversampling` is projector pixels per desktop pixel (1.25 keeps small text crisp).\n"},
-    Remark{"transfer:", "# How the desktop's pixels encode light: srgb, or linear.\n"},
+    Remark{
+        "desktop:",
+        "# The desktop's resolution: `density` is mean, max, or projector pixels per unit of the wall;\n"
+        "# `oversampling` is projector pixels per desktop pixel (1.25 keeps small text crisp). `filter` is "
+        "catmull-rom,\n"
+        "# bilinear or nearest; `filter_domain` is srgb (strokes of text keep their weight) or linear (fine patterns\n"
+        "# keep their brightness).\n"},
+    Remark{"transfer:",
+           "# How the desktop's pixels encode light: srgb, or linear (codes are proportional to light).\n"},
 };
 
 }  // namespace

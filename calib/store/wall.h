@@ -91,10 +91,19 @@ struct DisplayRequest {
 
 enum class DensityRule { kMean, kMax, kFixed };
 
+/// How the desktop's pixels become a projector's.
+enum class DesktopFilter { kCatmullRom, kBilinear, kNearest };
+
+/// What the filter takes means of. Codes keep strokes of text as heavy as they look on a screen, black on white and
+/// white on black; light keeps the brightness of fine patterns. The blend is made in light either way.
+enum class FilterDomain { kSrgb, kLinear };
+
 struct DesktopRequest {
   DensityRule density = DensityRule::kMean;
   double pixelsPerUnit = 0;   // kFixed: projector pixels per wall unit
   double oversampling = 1.0;  // projector pixels per desktop pixel
+  DesktopFilter filter = DesktopFilter::kCatmullRom;
+  FilterDomain filterDomain = FilterDomain::kSrgb;
   bool operator==(const DesktopRequest&) const = default;
 };
 

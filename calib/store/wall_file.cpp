@@ -2,6 +2,7 @@
 
 #include "calib/store/store.h"
 #include "calib/store/store_checks.h"
+#include "calib/store/wall_requests.h"
 #include "calib/store/yaml_document.h"
 #include "calib/store/yaml_reader.h"
 
@@ -136,48 +137,6 @@ ProjectorConfig readProjector(const Node& node) {
   projector.flatAt = readFlat(node.optional("flat"), projector.resolution);
   node.refuseUnknownKeys();
   return projector;
-}
-
-DisplayRequest readDisplay(const Node& node) {
-  DisplayRequest display;
-  if (const Node aspect = node.optional("aspect"); aspect.defined()) {
-    const std::string text = aspect.text();
-    if (text != "any") display.aspect = parseAspect(text);
-    if (text != "any" && !display.aspect) aspect.problem("expected any or W:H, e.g. 16:9");
-  }
-  if (const Node margin = node.optional("margin"); margin.defined()) display.margin = margin.integer(0, 4096);
-  node.refuseUnknownKeys();
-  return display;
-}
-
-DesktopRequest readDesktop(const Node& node) {
-  DesktopRequest desktop;
-  if (const Node density = node.optional("density"); density.defined()) {
-    const std::string text = density.isScalar() ? density.text() : "";
-    if (text == "max") desktop.density = DensityRule::kMax;
-    if (text != "max" && text != "mean") {
-      desktop.density = DensityRule::kFixed;
-      desktop.pixelsPerUnit = density.number(kTiny, kHuge);
-    }
-  }
-  if (const Node oversampling = node.optional("oversampling"); oversampling.defined()) {
-    desktop.oversampling = oversampling.number(0.25, 8);
-  }
-  node.refuseUnknownKeys();
-  return desktop;
-}
-
-Blend readBlend(const Node& node) {
-  Blend blend;
-  if (const Node n = node.optional("density_exponent"); n.defined()) blend.densityExponent = n.number(0, 16);
-  node.refuseUnknownKeys();
-  return blend;
-}
-
-Transfer readTransfer(const Node& node) {
-  const std::string text = node.defined() ? node.text() : "srgb";
-  if (text != "srgb" && text != "linear") node.problem("expected srgb or linear, found " + quotedForMessage(text));
-  return text == "linear" ? Transfer::kLinear : Transfer::kSrgb;
 }
 
 void checkFiducials(const Node& root, const Wall& wall) {

@@ -65,10 +65,17 @@ std::string displayText(const DisplayRequest& display) {
   return fmt::format("display: {{aspect: {}, margin: {}}}\n", aspect, display.margin);
 }
 
+std::string filterText(DesktopFilter filter) {
+  if (filter == DesktopFilter::kBilinear) return "bilinear";
+  return filter == DesktopFilter::kNearest ? "nearest" : "catmull-rom";
+}
+
 std::string desktopText(const DesktopRequest& desktop) {
   std::string density = desktop.density == DensityRule::kMax ? "max" : "mean";
   if (desktop.density == DensityRule::kFixed) density = yamlNumber(desktop.pixelsPerUnit);
-  return fmt::format("desktop: {{density: {}, oversampling: {}}}\n", density, yamlNumber(desktop.oversampling));
+  return fmt::format("desktop: {{density: {}, oversampling: {}, filter: {}, filter_domain: {}}}\n", density,
+                     yamlNumber(desktop.oversampling), filterText(desktop.filter),
+                     desktop.filterDomain == FilterDomain::kLinear ? "linear" : "srgb");
 }
 
 }  // namespace

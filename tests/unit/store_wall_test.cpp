@@ -33,7 +33,11 @@ calib::Wall richWall() {
   wall.projectors.push_back(second);
   wall.blend.densityExponent = 2.5;
   wall.display = {.aspect = calib::AspectRatio{16, 9.5}, .margin = 0};
-  wall.desktop = {.density = calib::DensityRule::kFixed, .pixelsPerUnit = 0.7, .oversampling = 1.25};
+  wall.desktop = {.density = calib::DensityRule::kFixed,
+                  .pixelsPerUnit = 0.7,
+                  .oversampling = 1.25,
+                  .filter = calib::DesktopFilter::kNearest,
+                  .filterDomain = calib::FilterDomain::kLinear};
   wall.transfer = calib::Transfer::kLinear;
   wall.rig = "my rig.yaml";
   return wall;
@@ -76,7 +80,7 @@ TEST(StoreWall, WritesTheKeysOfTheDocumentation) {
             "    mirror: {driver: ptu, at: \"tcp://10.0.0.9:2101\"}\n"
             "blend: {density_exponent: 2}\n"
             "display: {aspect: any, margin: 24}\n"
-            "desktop: {density: mean, oversampling: 1}\n"
+            "desktop: {density: mean, oversampling: 1, filter: catmull-rom, filter_domain: srgb}\n"
             "transfer: srgb\n");
 }
 
@@ -95,6 +99,18 @@ TEST(StoreWall, RoundTripsEveryOutputAndShape) {
       wall.projectors[0].output.monitor = kind == calib::OutputKind::kMonitor ? "DP 1: \"x\"\\" : "";
       wall.rig = "rig.yaml";
       wall.desktop.density = calib::DensityRule::kMax;
+      EXPECT_EQ(parseWall(formatWall(wall), "wall.yaml"), wall) << formatWall(wall);
+    }
+  }
+}
+
+TEST(StoreWall, RoundTripsEveryFilter) {
+  for (const auto filter :
+       {calib::DesktopFilter::kCatmullRom, calib::DesktopFilter::kBilinear, calib::DesktopFilter::kNearest}) {
+    for (const auto domain : {calib::FilterDomain::kSrgb, calib::FilterDomain::kLinear}) {
+      calib::Wall wall = exampleWall();
+      wall.desktop.filter = filter;
+      wall.desktop.filterDomain = domain;
       EXPECT_EQ(parseWall(formatWall(wall), "wall.yaml"), wall) << formatWall(wall);
     }
   }
@@ -180,6 +196,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"aspect: any", "aspect: 16:0", "expected any or W:H"},
         BadEdit{"density: mean", "density: dense", "density: expected a number"},
         BadEdit{"density: mean", "density: -1", "density: expected a number"},
+        BadEdit{"density: mean", "filter: cubic", "expected catmull-rom, bilinear or nearest, found \"cubic\""},
+        BadEdit{"density: mean", "filter_domain: light", "expected srgb or linear, found \"light\""},
+        BadEdit{"density: mean", "filter: [nearest]", "expected catmull-rom, bilinear or nearest, found"},
         BadEdit{"display: {aspect", "transfer: gamma\ndisplay: {aspect", "expected srgb or linear"},
         BadEdit{"display: {aspect", "displai: {aspect", "did you mean \"display\"?"},
         BadEdit{"units: mm", "units: mm\n  units: mm", "the key \"units\" is given twice"},
