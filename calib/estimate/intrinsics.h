@@ -31,9 +31,10 @@ struct CheckerboardView {
 };
 
 /// Intrinsics and five distortion coefficients from several views (report 5.1.1). Views that fit more than three times
-/// worse than the median are left out once. Throws EstimateError when fewer than three views remain or the solution is
-/// not a camera.
+/// worse than the median are left out once, and so are repetitions of a view. Throws EstimateError when fewer than
+/// three views remain or they do not determine the camera (all alike, never tilted), naming the photographs. `remarks`,
+/// when given, gets what a person should know of a result that stands.
 [[nodiscard]] CameraIntrinsics calibrateCamera(std::span<const CheckerboardView> views, const Checkerboard& board,
-                                               devices::Size size);
+                                               devices::Size size, std::vector<std::string>* remarks = nullptr);
 
 }  // namespace pixelflex::calib
