@@ -42,7 +42,10 @@ CameraIntrinsics measureCamera(const CameraSource& camera, Photographs& source, 
   devices::Size size;
   const auto views = readViews(board, source, progress, size);
   try {
-    return calibrateCamera(views, board, size);
+    std::vector<std::string> remarks;
+    const CameraIntrinsics measured = calibrateCamera(views, board, size, &remarks);
+    for (const auto& remark : remarks) progress.warn("camera: " + remark);
+    return measured;
   } catch (const EstimateError& error) {
     throw ProcedureError(std::string("camera: ") + error.what());
   }

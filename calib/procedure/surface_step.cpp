@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "calib/estimate/bent_screen.h"
+#include "calib/estimate/fiducial_check.h"
 #include "calib/estimate/fiducials.h"
 #include "calib/procedure/procedure_error.h"
 #include "calib/procedure/screen_check.h"
@@ -15,9 +17,11 @@ namespace {
 
 std::map<int, glm::dvec2> findInPhoto(const Wall& wall, const CameraIntrinsics& camera, Photographs* source,
                                       std::string& name) {
-  const bool anyMarker =
-      std::ranges::any_of(wall.surface.fiducials, [](const Fiducial& f) { return f.aruco.has_value(); });
-  if (!anyMarker) return {};
+  std::set<int> wanted;
+  for (const auto& fiducial : wall.surface.fiducials) {
+    if (fiducial.aruco) wanted.insert(*fiducial.aruco);
+  }
+  if (wanted.empty()) return {};
   if (source == nullptr) throw ProcedureError("step surface needs photographs: give --photos DIR");
   const auto shot = source->fiducials();
   name = shot.name;
@@ -25,7 +29,11 @@ std::map<int, glm::dvec2> findInPhoto(const Wall& wall, const CameraIntrinsics& 
     throw ProcedureError(shot.name + ": " + sizeText(shot.photo.size()) + " pixels, but the camera was calibrated at " +
                          sizeText(camera.size));
   }
-  return findMarkers(shot.photo, CameraMapping(camera));
+  try {
+    return findMarkers(shot.photo, CameraMapping(camera), wanted);
+  } catch (const EstimateError& error) {
+    throw ProcedureError(shot.name + ": " + error.what());
+  }
 }
 
 void requireEnough(const Surface& surface, const SeenFiducials& seen) {
@@ -38,6 +46,9 @@ void requireEnough(const Surface& surface, const SeenFiducials& seen) {
 }
 
 SurfaceFit fitPlane(const Surface& surface, const CameraIntrinsics& camera, const SeenFiducials& seen) {
+  if (const auto wrong = explainFiducials(seen.pairs, seen.names, camera)) {
+    throw ProcedureError("surface: " + (seen.photo.empty() ? "" : seen.photo + ": ") + *wrong);
+  }
   refuseBentFiducials(surface, camera, seen);
   const Homography wallFromCamera = solveCollineation(seen.pairs);
   return {wallFromCamera.rowMajor(), rmsError(wallFromCamera, seen.pairs), {}};
