@@ -4,6 +4,8 @@ target_link_libraries(pixelflex_reference PRIVATE pixelflex_options PUBLIC pixel
 
 pixelflex_test(renderer_exact_test LABEL gl SOURCES gl/exact_test.cpp LINK pixelflex_renderer pixelflex_reference)
 pixelflex_test(renderer_warp_test LABEL gl SOURCES gl/warp_test.cpp LINK pixelflex_renderer pixelflex_reference)
+pixelflex_test(renderer_coverage_test LABEL gl SOURCES gl/coverage_test.cpp gl/mesh_count.cpp gl/mesh_count.h
+  LINK pixelflex_plan pixelflex_reference PkgConfig::EPOXY)
 pixelflex_test(renderer_damage_test LABEL gl SOURCES gl/damage_test.cpp LINK pixelflex_renderer pixelflex_reference)
 pixelflex_test(display_handle_test LABEL unit SOURCES unit/display_handle_test.cpp LINK pixelflex_display)
 pixelflex_test(display_image_near_test LABEL unit SOURCES unit/display_image_near_test.cpp LINK pixelflex_image)
