@@ -81,7 +81,7 @@ TEST(Readings, ToeAndShoulderOfEachChannel) {
 
 TEST(Readings, NoiseIsTakenOut) {
   const std::vector<std::pair<Light, double>> cases = {
-      {power(1.9), 0.005}, {power(2.5, 0.04), 0.005}, {power(2.2, 0, 0.85), 0.012}, {sShaped, 0.008}};
+      {power(1.9), 0.005}, {power(2.5, 0.04), 0.005}, {power(2.2, 0, 0.85), 0.012}, {sShaped, 0.012}};
   for (const auto& [light, limit] : cases) {
     const auto noisy = parseReadings(readings(light, 0.01), "p1.csv");
     const auto smooth = withoutNoise(noisy);
