@@ -4,6 +4,11 @@ pixelflex_test(calibrate_cli_test LABEL e2e TIMEOUT 240
   LINK pixelflex_test_support pixelflex_simulate pixelflex_store)
 add_dependencies(calibrate_cli_test pixelflex-new pixelflex-calibrate)
 
+pixelflex_test(calibrate_bad_photos_test LABEL e2e TIMEOUT 240
+  SOURCES e2e/calibrate_bad_photos_test.cpp
+  LINK pixelflex_test_support pixelflex_simulate pixelflex_store)
+add_dependencies(calibrate_bad_photos_test pixelflex-new pixelflex-calibrate)
+
 pixelflex_test(calibrate_curved_test LABEL e2e TIMEOUT 300
   SOURCES e2e/calibrate_curved_test.cpp
   LINK pixelflex_test_support pixelflex_simulate pixelflex_store pixelflex_geometry)
