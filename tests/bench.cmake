@@ -1,7 +1,9 @@
 # Speed and memory: run by hand, see bench/README.md. The tests only see that they still work, on tiny input.
 add_executable(calibrate_bench bench/calibrate_bench.cpp)
 target_link_libraries(calibrate_bench PRIVATE pixelflex_options pixelflex_test_calibration pixelflex_test_support
-  pixelflex_capture CLI11::CLI11 fmt::fmt)
+  CLI11::CLI11 fmt::fmt)
+target_compile_definitions(calibrate_bench PRIVATE PIXELFLEX_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+add_dependencies(calibrate_bench pixelflex-calibrate)
 add_executable(geometry_bench bench/geometry_bench.cpp)
 target_link_libraries(geometry_bench PRIVATE pixelflex_options pixelflex_geometry pixelflex_photometric
   benchmark::benchmark)

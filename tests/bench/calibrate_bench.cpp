@@ -1,4 +1,6 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -8,55 +10,112 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <fstream>
-#include <map>
+#include <functional>
 #include <string>
+#include <vector>
 
-#include "calib/capture/folder_photographs.h"
 #include "calib/patterns/blob_pattern.h"
 #include "calib/simulate/rig_generator.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support_calibration/calibrated_rig.h"
 
-// Time and memory from photographs on disk to the finished store. One line of JSON for each number of projectors.
+// Time and memory of `pixelflex calibrate` from photographs on disk to the finished store and report: the whole
+// program, from its start to its end. One line of JSON for each run, and a table of time against the number of
+// projectors.
 
 namespace pixelflex::calib {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
-double secondsSince(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-class TimedProgress : public Progress {
- public:
-  void beginStep(const std::string& step) override {
-    step_ = step;
-    begin_ = Clock::now();
-  }
-  void advance(int, int, const std::string&) override {}
-  void endStep(const std::string&) override {
-    steps_ += fmt::format("{}\"{}\": {:.3f}", steps_.empty() ? "" : ", ", step_, secondsSince(begin_));
-  }
-  void warn(const std::string&) override {}
-  [[nodiscard]] const std::string& steps() const { return steps_; }
-
- private:
-  std::string step_;
-  Clock::time_point begin_;
-  std::string steps_;
+struct Cost {
+  double seconds = 0;
+  double cpuSeconds = 0;  // of all threads
+  double peakMegabytes = 0;
 };
 
-/// The largest resident size of this process so far, MB.
-double peakMegabytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.starts_with("VmHWM:")) return std::strtod(line.c_str() + 6, nullptr) / 1024;
-  }
-  return 0;
+double secondsOf(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) / 1e6;
 }
+
+/// Runs in a process of its own, so that neither memory nor threads carry over. Throws when it fails.
+Cost apart(const std::function<void()>& work) {
+  std::fflush(stdout);
+  const auto begin = std::chrono::steady_clock::now();
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("fork failed");
+  if (child == 0) {
+    try {
+      work();
+      _exit(0);
+    } catch (const std::exception& error) {
+      fmt::print(stderr, "calibrate_bench: {}\n", error.what());
+    }
+    _exit(1);
+  }
+  int status = 0;
+  rusage usage{};
+  wait4(child, &status, 0, &usage);
+  if (status != 0) throw std::runtime_error("a part of the benchmark failed; --show shows what the program says");
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+          secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime), static_cast<double>(usage.ru_maxrss) / 1024};
+}
+
+/// Becomes the program; its standard output goes nowhere unless `show`.
+void become(std::vector<std::string> arguments, bool show) {
+  if (!show) dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDOUT_FILENO);
+  std::vector<char*> pointers;
+  for (auto& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  execv(pointers.front(), pointers.data());
+  throw std::runtime_error("cannot start " + arguments.front());
+}
+
+struct Settings {
+  int repeat = 1;
+  bool show = false;
+};
+
+/// A simulated wall in a folder, photographed and calibrated once; the photographs lie apart.
+class Walls {
+ public:
+  Walls(const Rig& rig, const Settings& settings) : rig_(rig), settings_(settings) {
+    apart([&] {
+      SimulatedWall room(rig_);
+      (void)calibrateRig(room, wall());
+    });
+    fs::copy(wall() / "captures", photographs(), fs::copy_options::recursive);
+  }
+
+  /// The fastest of as many runs as the settings say, printed.
+  Cost measure(const std::string& name, const std::vector<std::string>& options) {
+    std::vector<std::string> arguments = {PIXELFLEX_BIN_DIR "/pixelflex-calibrate", wall().string(), "--photos",
+                                          photographs().string()};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    std::vector<Cost> costs;
+    for (int i = 0; i < settings_.repeat; ++i) {
+      costs.push_back(apart([&] { become(arguments, settings_.show); }));
+    }
+    const Cost cost = *std::ranges::min_element(costs, {}, &Cost::seconds);
+    double load = 0;
+    getloadavg(&load, 1);
+    fmt::print(
+        "{{\"benchmark\": \"{}\", \"projectors\": {}, \"resolution\": [{}, {}], \"photographs\": {}, "
+        "\"camera\": [{}, {}], \"seconds\": {:.3f}, \"cpu_seconds\": {:.3f}, \"peak_mb\": {:.0f}, \"runs\": {}, "
+        "\"load\": {:.1f}}}\n",
+        name, rig_.projectors.size(), rig_.projectors.front().resolution.width,
+        rig_.projectors.front().resolution.height, rig_.projectors.size() * kPatternCount, rig_.camera.size.width,
+        rig_.camera.size.height, cost.seconds, cost.cpuSeconds, cost.peakMegabytes, settings_.repeat, load);
+    return cost;
+  }
+
+ private:
+  [[nodiscard]] fs::path wall() const { return folder_.path() / "wall"; }
+  [[nodiscard]] fs::path photographs() const { return folder_.path() / "photographs"; }
+  testing::TemporaryFolder folder_;
+  Rig rig_;
+  Settings settings_;
+};
 
 struct Layout {
   int columns = 1, rows = 1;
@@ -69,60 +128,27 @@ Layout layoutOf(int projectors) {
   return {projectors / rows, rows};
 }
 
-/// Runs in a process of its own, so that neither memory nor threads carry over. Throws when it fails.
-template <class Work>
-void apart(Work work) {
-  const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("fork failed");
-  if (child == 0) {
-    int status = 1;
-    try {
-      work();
-      status = 0;
-    } catch (const std::exception& error) {
-      fmt::print(stderr, "calibrate_bench: {}\n", error.what());
-    }
-    std::fflush(stdout);
-    _exit(status);
+/// Everything, and one projector measured again, on the report's wall (or a tiny one).
+void runWhole(const Settings& settings, bool tiny) {
+  Walls wall(tiny ? miniRig(2) : reportRig(8), settings);
+  wall.measure("all", {"--all"});
+  wall.measure("only", {"--only", tiny ? "p2" : "p3"});
+}
+
+/// Small projectors and a camera large enough for the most of them, so that only their number differs.
+void runLinear(const Settings& settings, const std::vector<int>& numbers) {
+  std::vector<Cost> costs;
+  for (const int number : numbers) {
+    const Layout layout = layoutOf(number);
+    Walls wall(casualRig(layout.columns, layout.rows, {640, 480}, 8, {3840, 2160}), settings);
+    costs.push_back(wall.measure("linear", {"--all"}));
   }
-  int status = 0;
-  waitpid(child, &status, 0);
-  if (status != 0) throw std::runtime_error("a part of the benchmark failed");
-}
-
-void photograph(int projectors, bool tiny, const fs::path& folder) {
-  const Layout layout = layoutOf(projectors);
-  SimulatedWall room(tiny ? miniRig(2) : casualRig(layout.columns, layout.rows, {1024, 768}, 8));
-  (void)calibrateRig(room, folder);
-}
-
-void solve(int projectors, const fs::path& folder) {
-  const Wall wall = loadWall(folder);
-  FolderPhotographs photographs({folder / "captures"}, folder / "captures");
-  TimedProgress progress;
-  const auto begin = Clock::now();
-  Procedure procedure(folder, wall, {}, &photographs, progress);
-  procedure.run({.force = true, .goOnWithoutFailed = true});
-  procedure.save();
-  const double seconds = secondsSince(begin);
-  const devices::Size camera = procedure.calibration().camera.value().size;
-  double load = 0;
-  getloadavg(&load, 1);
-  fmt::print(
-      "{{\"benchmark\": \"calibrate\", \"projectors\": {}, \"calibrated\": {}, \"photographs\": {}, \"camera\": [{}, "
-      "{}], "
-      "\"seconds\": {:.3f}, \"peak_mb\": {:.0f}, \"load\": {:.1f}, \"steps\": {{{}}}}}\n",
-      projectors, procedure.calibration().projectors.size(), projectors * kPatternCount, camera.width, camera.height,
-      seconds, peakMegabytes(), load, progress.steps());
-  if (procedure.calibration().projectors.size() != static_cast<std::size_t>(projectors)) {
-    throw std::runtime_error("not every projector was calibrated");
+  fmt::print("projectors  seconds  seconds per projector  processor seconds  peak MB\n");
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const Cost& cost = costs[i];
+    fmt::print("{:10}  {:7.2f}  {:21.3f}  {:17.2f}  {:7.0f}\n", numbers[i], cost.seconds, cost.seconds / numbers[i],
+               cost.cpuSeconds, cost.peakMegabytes);
   }
-}
-
-void run(int projectors, bool tiny) {
-  const testing::TemporaryFolder folder;
-  apart([&] { photograph(projectors, tiny, folder.path()); });
-  apart([&] { solve(projectors, folder.path()); });
 }
 
 }  // namespace
@@ -130,14 +156,24 @@ void run(int projectors, bool tiny) {
 
 int main(int argc, char** argv) {
   CLI::App app("Calibrates simulated walls from photographs on disk and prints time and memory as JSON lines");
+  pixelflex::calib::Settings settings;
+  std::vector<std::string> what = {"whole", "linear"};
   std::vector<int> projectors = {2, 8, 32};
   bool tiny = false;
-  app.add_option("--projectors", projectors, "How many, by commas")->delimiter(',')->check(CLI::PositiveNumber);
+  app.add_option("--what", what, "whole: all and one projector of the report's wall; linear: walls of many sizes")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"whole", "linear"}));
+  app.add_option("--projectors", projectors, "How many, by commas, of linear")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  app.add_option("--repeat", settings.repeat, "Run each this often and keep the fastest")->check(CLI::PositiveNumber);
+  app.add_flag("--show", settings.show, "What the program says, too");
   app.add_flag("--tiny", tiny, "Two small projectors and a small camera, to see that this works");
   CLI11_PARSE(app, argc, argv);
-  if (tiny) projectors = {2};
+  const auto asked = [&](const char* one) { return std::ranges::find(what, one) != what.end(); };
   try {
-    for (const int count : projectors) pixelflex::calib::run(count, tiny);
+    if (asked("whole") || tiny) pixelflex::calib::runWhole(settings, tiny);
+    if (asked("linear") && !tiny) pixelflex::calib::runLinear(settings, projectors);
   } catch (const std::exception& error) {
     fmt::print(stderr, "calibrate_bench: {}\n", error.what());
     return 1;
