@@ -1,4 +1,5 @@
-// A screen that shows desktop pixels one to one: no filter, no arithmetic on colours.
+// A screen that shows desktop pixels one to one: no filter, no arithmetic on colours but for a frame of
+// other codes than the desktop's.
 uniform sampler2DArray desktop;
 uniform ivec2 desktopSize;
 uniform ivec3 tiling;   // tiles in a row, stride, apron
@@ -14,5 +15,9 @@ void main() {
   }
   ivec2 tile = ivec2((vec2(pixel) + 0.5) / float(tiling.y));
   ivec3 texel = ivec3(pixel - tile * tiling.y + tiling.z, tile.y * tiling.x + tile.x);
-  device = vec4(withCursorTexel(texelFetch(desktop, texel, 0).rgb, pixel), 1.0);
+  vec3 code = withCursorTexel(texelFetch(desktop, texel, 0).rgb, pixel);
+#if TEN_BITS
+  code = rounded(code);
+#endif
+  device = vec4(code, 1.0);
 }

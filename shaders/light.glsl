@@ -40,15 +40,21 @@ vec3 deviceFromLight(vec3 light) {
 #endif
 }
 
-// Rounds a device value to a code of eight bits, up or down by chance, so that the mean over a few pixels is the value
-// itself. The chance is interleaved gradient noise in integers: the same everywhere and in every frame. It lies in
-// steps of 1/256 at (k + 1/2)/256, so a value that is a code already, 0 and 1 among them, stays.
-vec3 dithered(vec3 device, uvec2 pixel) {
-  uint slope = pixel.x * 288237862u + pixel.y * 25070363u;
-  uint high, low;
-  umulExtended(slope, 4221604484u, high, low);
-  uint noise = slope * 52u + high;
-  uvec3 perChannel = uvec3(noise, noise + 1431655765u, noise + 2863311530u) >> 24;
-  vec3 chance = (vec3(perChannel) + 0.5) / 256.0;
-  return floor(device * 255.0 + chance) / 255.0;
+#if DITHER || TEN_BITS
+uniform float highestCode;  // of the frame: 255 or 1023
+
+// Ten bits are rounded here: a driver may cut off what it ought to round, but no driver changes a whole code.
+vec3 rounded(vec3 device) { return floor(device * highestCode + 0.5) / highestCode; }
+#endif
+
+#if DITHER
+uniform sampler2D noise;  // a square tile, its extent a power of two; all codes of eight bits equally often
+
+// Rounds a device value to a code, up or down by chance, so that the mean over a few pixels is the value itself. The
+// chance is blue noise, the same everywhere and in every frame. It lies in steps of 1/256 at (k + 1/2)/256, so a value
+// that is a code already, 0 and 1 among them, stays.
+vec3 dithered(vec3 device, ivec2 pixel) {
+  vec3 chance = (texelFetch(noise, pixel & (textureSize(noise, 0) - 1), 0).rgb * 255.0 + 0.5) / 256.0;
+  return floor(device * highestCode + chance) / highestCode;
 }
+#endif

@@ -1,4 +1,5 @@
-// A projector pixel: the desktop at its place, as light, times the blend mask, as the device's code.
+// A projector pixel: the desktop at its place, as light, matched to the other projectors and blended with them, as the
+// device's code.
 noperspective in vec3 texelAndWeight;
 flat in int layer;
 flat in ivec2 tileOrigin;
@@ -6,24 +7,55 @@ flat in ivec4 held;
 
 layout(location = 0) out vec4 device;
 
+#if COLOUR
+uniform mat3 colour;
+#endif
 #if MASK
-uniform sampler2D mask;
+uniform sampler2D mask;  // of blend and gain
+#endif
+#if BLACK
+uniform sampler2D black;
+uniform float largestBlack;  // light
 #endif
 
-void main() {
-  vec2 texel = texelAndWeight.xy / texelAndWeight.z;
-  vec3 code = filtered(texel, held, layer);
-#if MEASURE
-  device = vec4(code, 1.0);
+vec3 lightAt(vec2 texel) {
+  vec3 value = clamp(filtered(texel, held, layer), 0.0, 1.0);
+#if !FILTER_LIGHT
+  return lightFromDesktop(withCursor(value, texel + vec2(tileOrigin)));
+#elif CURSOR
+  return lightFromSrgb(withCursor(srgbFromLight(value), texel + vec2(tileOrigin)));
 #else
-  code = withCursor(clamp(code, 0.0, 1.0), texel + vec2(tileOrigin));
-  vec3 light = lightFromDesktop(code);
+  return value;
+#endif
+}
+
+// Held to what the device can show only at the end: below the black level there is room for a negative component.
+vec3 matched(vec3 light) {
+#if COLOUR
+  light = colour * light;
+#endif
 #if MASK
   light *= texelFetch(mask, ivec2(gl_FragCoord.xy), 0).r;
 #endif
-  vec3 value = clamp(deviceFromLight(light), 0.0, 1.0);
+#if BLACK
+  light += largestBlack * texelFetch(black, ivec2(gl_FragCoord.xy), 0).r;
+#endif
+#if COLOUR || BLACK
+  light = clamp(light, 0.0, 1.0);
+#endif
+  return light;
+}
+
+void main() {
+  vec2 texel = texelAndWeight.xy / texelAndWeight.z;
+#if MEASURE
+  device = vec4(filtered(texel, held, layer), 1.0);
+#else
+  vec3 value = clamp(deviceFromLight(matched(lightAt(texel))), 0.0, 1.0);
 #if DITHER
-  value = dithered(value, uvec2(gl_FragCoord.xy));
+  value = dithered(value, ivec2(gl_FragCoord.xy));
+#elif TEN_BITS
+  value = rounded(value);
 #endif
   device = vec4(value, 1.0);
 #endif

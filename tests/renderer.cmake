@@ -7,6 +7,10 @@ pixelflex_test(renderer_warp_test LABEL gl SOURCES gl/warp_test.cpp LINK pixelfl
 pixelflex_test(renderer_coverage_test LABEL gl SOURCES gl/coverage_test.cpp gl/mesh_count.cpp gl/mesh_count.h
   LINK pixelflex_plan pixelflex_reference PkgConfig::EPOXY)
 pixelflex_test(renderer_damage_test LABEL gl SOURCES gl/damage_test.cpp LINK pixelflex_renderer pixelflex_reference)
+pixelflex_test(renderer_light_test LABEL gl SOURCES gl/light_test.cpp gl/dither_test.cpp
+  LINK pixelflex_renderer pixelflex_reference)
+pixelflex_test(plan_light_test LABEL unit SOURCES unit/plan_light_test.cpp support/temporary_folder.cpp
+  LINK pixelflex_plan pixelflex_image)
 pixelflex_test(display_handle_test LABEL unit SOURCES unit/display_handle_test.cpp LINK pixelflex_display)
 pixelflex_test(display_image_near_test LABEL unit SOURCES unit/display_image_near_test.cpp LINK pixelflex_image)
 pixelflex_test(display_context_test LABEL gl SOURCES gl/context_test.cpp LINK pixelflex_display PkgConfig::EPOXY)

@@ -80,5 +80,8 @@ void GlProgram::set(const char* uniform, glm::ivec2 value) const {
 void GlProgram::set(const char* uniform, glm::ivec3 value) const {
   glProgramUniform3i(program_.get(), location(uniform), value.x, value.y, value.z);
 }
+void GlProgram::set(const char* uniform, const glm::mat3& value) const {
+  glProgramUniformMatrix3fv(program_.get(), location(uniform), 1, GL_FALSE, &value[0][0]);
+}
 
 }  // namespace pixelflex::devices

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -30,6 +31,7 @@ class GlProgram {
   void set(const char* uniform, glm::vec4 value) const;
   void set(const char* uniform, glm::ivec2 value) const;
   void set(const char* uniform, glm::ivec3 value) const;
+  void set(const char* uniform, const glm::mat3& value) const;
 
  private:
   [[nodiscard]] int location(const char* uniform) const;

@@ -23,15 +23,21 @@ struct Job {
   InverseMap desktopFromProjector;
   Kernel kernel = Kernel::kCubic;
   bool linearDesktop = false;
+  bool filterLight = false;                                     // the kernel's means are of light
+  std::array<double, 9> colour{1, 0, 0, 0, 1, 0, 0, 0, 1};      // row major
   std::function<double(int x, int y)> alpha;                    // empty: 1
+  devices::Image16 gain;                                        // stretched over the frame, 65535 = 1; empty: 1
+  std::function<double(int x, int y)> black;                    // light; empty: 0
   std::function<double(double light, int channel)> deviceCode;  // 0..1 for light; empty: sRGB
+  double highestCode = 255;
 };
 
-/// Device values 0..255, not rounded; fourth channel 1 where the picture is.
+/// Device values 0..highestCode, not rounded; fourth channel 1 where the picture is.
 [[nodiscard]] devices::Image<double> warp(const devices::Image8& desktop, const Job& job);
 
-/// A desktop value at a position, clamped at the border, 0..1, before clipping.
-[[nodiscard]] double sample(const devices::Image8& desktop, glm::dvec2 position, int channel, Kernel kernel);
+/// A desktop value at a position, clamped at the border, 0..1, before clipping: a code, or light.
+[[nodiscard]] double sample(const devices::Image8& desktop, glm::dvec2 position, int channel, Kernel kernel,
+                            bool inLight = false);
 
 /// A triangle of projector positions with desktop positions times weight.
 struct Triangle {

@@ -7,33 +7,21 @@
 
 #include "calib/geometry/footprint.h"
 #include "calib/geometry/patch_mesh.h"
-#include "calib/photometric/response_curve.h"
-#include "calib/store/yaml_reader.h"
-#include "devices/image/png_file.h"
 #include "viewer/tiles/tile_layout.h"
 
 namespace pixelflex::viewer {
 namespace {
 
-devices::Image16 readMask(const std::filesystem::path& folder, const calib::ProjectorCalibration& projector) {
-  if (!projector.alpha) return {};
-  const auto file = folder / *projector.alpha;
-  devices::Image16 mask = devices::readPng16(file);
-  if (mask.size() != projector.resolution || mask.channels() != 1) {
-    throw PlanError(file.string() +
-                    ": not a grey picture of the projector's resolution; run pixelflex calibrate WALL blend");
+Filter filterOf(calib::DesktopFilter filter) {
+  switch (filter) {
+    case calib::DesktopFilter::kBilinear:
+      return Filter::kBilinear;
+    case calib::DesktopFilter::kNearest:
+      return Filter::kNearest;
+    case calib::DesktopFilter::kCatmullRom:
+      break;
   }
-  return mask;
-}
-
-std::array<std::vector<float>, 3> readResponse(const std::filesystem::path& folder,
-                                               const calib::ProjectorCalibration& projector) {
-  if (!projector.response) return {};
-  const std::string file = (folder / *projector.response).string();
-  const auto curve = calib::parseReadings(calib::readStoreFile(file), file);
-  std::array<std::vector<float>, 3> inverse;
-  for (std::size_t c = 0; c < 3; ++c) inverse[c] = calib::inverseResponse(curve.light[c]);
-  return inverse;
+  return Filter::kCatmullRom;
 }
 
 std::vector<calib::DesktopPatch> patchesOf(const TileLayout& layout) {
@@ -82,8 +70,7 @@ WallPlan::WallPlan(const std::filesystem::path& folder, calib::Wall wall, calib:
   for (const auto& projector : calibration_.projectors) {
     if (!only.empty() && std::ranges::find(only, projector.name) == only.end()) continue;
     projectors_.push_back(&projector);
-    alpha_.push_back(projector.flatAt ? devices::Image16{} : readMask(folder, projector));
-    inverseResponse_.push_back(readResponse(folder, projector));
+    light_.push_back(readLight(folder, projector));
   }
 }
 
@@ -103,13 +90,21 @@ std::vector<OutputPlan> WallPlan::outputsFor(devices::Size desktop) const {
 
 OutputPlan WallPlan::outputFor(std::size_t index, devices::Size desktop) const {
   const auto& projector = *projectors_[index];
+  const auto& light = light_[index];
   OutputPlan plan{
       .name = projector.name,
       .resolution = projector.resolution,
       .desktop = desktop,
-      .alpha = alpha_[index],
-      .inverseResponse = inverseResponse_[index],
+      .colour = light.colour,
+      .alpha = light.alpha,
+      .gain = light.gain,
+      .black = light.black,
+      .largestBlack = static_cast<float>(calib::kLargestBlackLift),
+      .inverseResponse = light.inverseResponse,
       .transfer = wall_.transfer == calib::Transfer::kSrgb ? DesktopTransfer::kSrgb : DesktopTransfer::kLinear,
+      .filter = filterOf(wall_.desktop.filter),
+      .filterDomain =
+          wall_.desktop.filterDomain == calib::FilterDomain::kLinear ? FilterDomain::kLinear : FilterDomain::kSrgb,
       .exactAt = projector.flatAt};
   if (projector.flatAt) return plan;
   calib::Display display = display_;

@@ -1,28 +1,21 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "calib/store/calibration.h"
 #include "calib/store/wall.h"
+#include "viewer/plan/projector_light.h"
 #include "viewer/renderer/output_plan.h"
 
 namespace pixelflex::viewer {
 
-/// A calibration that cannot be shown; what() says what is missing and what to run.
-class PlanError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 /// A calibrated wall as the viewer needs it, read from the store once.
 class WallPlan {
  public:
-  /// `only`: names of the projectors to show; empty means all that are calibrated. Reads masks and responses from
-  /// `folder`. Throws PlanError, StoreError, ImageError, ResponseError.
+  /// `only`: names of the projectors to show; empty means all that are calibrated. Reads masks, gains, black maps and
+  /// responses from `folder`. Throws PlanError, StoreError, ImageError, ResponseError.
   WallPlan(const std::filesystem::path& folder, calib::Wall wall, calib::Calibration calibration,
            const std::vector<std::string>& only);
 
@@ -45,8 +38,7 @@ class WallPlan {
   calib::Calibration calibration_;
   calib::Display display_;
   std::vector<const calib::ProjectorCalibration*> projectors_;
-  std::vector<devices::Image16> alpha_;
-  std::vector<std::array<std::vector<float>, 3>> inverseResponse_;
+  std::vector<ProjectorLight> light_;  // one for each of projectors_
 };
 
 }  // namespace pixelflex::viewer

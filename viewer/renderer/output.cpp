@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "viewer/renderer/one_to_one.h"
 #include "viewer/renderer/renderer_error.h"
+#include "viewer/renderer/textures.h"
 
 namespace pixelflex::viewer {
 namespace {
-
-enum TextureUnit : GLuint { kDesktopUnit, kMaskUnit, kResponseUnit, kCursorUnit };
 
 void checkResolution(const OutputPlan& plan) {
   GLint largest = 0;
@@ -22,33 +22,16 @@ void checkResolution(const OutputPlan& plan) {
       fmt::format("output '{}' of {}x{} pixels: must be 1 to {} each way", plan.name, width, height, largest));
 }
 
-void checkSameSize(const OutputPlan& plan) {
-  if (plan.alpha.empty() || (plan.alpha.size() == plan.resolution && plan.alpha.channels() == 1)) return;
-  throw RendererError(fmt::format("the alpha mask of '{}' is {}x{} with {} channels, the output {}x{}", plan.name,
-                                  plan.alpha.width(), plan.alpha.height(), plan.alpha.channels(), plan.resolution.width,
-                                  plan.resolution.height));
-}
-
-bool hasResponse(const OutputPlan& plan) {
-  const auto absent = std::count_if(plan.inverseResponse.begin(), plan.inverseResponse.end(),
-                                    [](const auto& channel) { return channel.empty(); });
-  const bool tooShort = std::any_of(plan.inverseResponse.begin(), plan.inverseResponse.end(),
-                                    [](const auto& channel) { return channel.size() == 1; });
-  if (absent % 3 != 0 || tooShort) {
-    throw RendererError(
-        fmt::format("the inverse response of '{}' needs two or more entries for each of red, green and "
-                    "blue",
-                    plan.name));
+GLenum formatOf(FrameFormat format) {
+  switch (format) {
+    case FrameFormat::kRgb10:
+      return GL_RGB10_A2;
+    case FrameFormat::kRgba32F:
+      return GL_RGBA32F;
+    case FrameFormat::kRgba8:
+      break;
   }
-  return absent == 0;
-}
-
-devices::GlTexture textureOf(GLenum format, int width, int height) {
-  auto texture = devices::GlTexture::create(GL_TEXTURE_2D);
-  glTextureStorage2D(texture.get(), 1, format, width, height);
-  glTextureParameteri(texture.get(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTextureParameteri(texture.get(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  return texture;
+  return GL_RGBA8;
 }
 
 void attribute(GLuint array, GLuint index, GLint size, std::size_t offset) {
@@ -59,32 +42,38 @@ void attribute(GLuint array, GLuint index, GLint size, std::size_t offset) {
 
 }  // namespace
 
-Output::Output(const OutputPlan& plan, const TileLayout& layout, bool measure)
-    : name_(plan.name), resolution_(plan.resolution), desktop_(plan.desktop) {
+Output::Output(const OutputPlan& plan, const TileLayout& layout, FrameFormat format)
+    : name_(plan.name), resolution_(plan.resolution), desktop_(plan.desktop), format_(format) {
   checkResolution(plan);
-  variant_.measure = measure;
-  variant_.filter = plan.filter;
+  variant_.measure = format == FrameFormat::kRgba32F;
+  variant_.tenBits = format == FrameFormat::kRgb10;
   variant_.transfer = plan.transfer;
-  makeFrame(measure);
+  makeFrame();
   if (plan.exactAt) {
     variant_.exact = true;
     exactAt_ = *plan.exactAt;
     vertexArray_ = devices::GlVertexArray::create();
   } else {
-    checkSameSize(plan);
     variant_.dither = plan.dither;
-    variant_.mask = !plan.alpha.empty();
-    variant_.response = hasResponse(plan);
+    light_ = OutputLight(plan);
+    light_.addTo(variant_);
     footprint_ = MeshFootprint(plan, layout);
     makeMesh();
-    if (variant_.mask) makeMask(plan.alpha);
-    if (variant_.response) makeResponse(plan);
+    chooseFilter(plan);
   }
   markAll();
 }
 
-void Output::makeFrame(bool measure) {
-  frame_ = textureOf(measure ? GL_RGBA32F : GL_RGBA8, resolution_.width, resolution_.height);
+/// What is measured is the mesh, so there a filter that keeps positions is used in any case.
+void Output::chooseFilter(const OutputPlan& plan) {
+  const bool unfiltered = !variant_.measure && showsPixelsOneToOne(plan.mesh);
+  variant_.filter = unfiltered ? Filter::kNearest : plan.filter;
+  variant_.filterLight = !variant_.measure && variant_.filter != Filter::kNearest &&
+                         plan.filterDomain == FilterDomain::kLinear && plan.transfer == DesktopTransfer::kSrgb;
+}
+
+void Output::makeFrame() {
+  frame_ = makeTexture(formatOf(format_), resolution_);
   framebuffer_ = devices::GlFramebuffer::create();
   glNamedFramebufferTexture(framebuffer_.get(), GL_COLOR_ATTACHMENT0, frame_.get(), 0);
   if (glCheckNamedFramebufferStatus(framebuffer_.get(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
@@ -106,26 +95,6 @@ void Output::makeMesh() {
   glEnableVertexArrayAttrib(array, 2);
   glVertexArrayAttribIFormat(array, 2, 1, GL_INT, offsetof(TileVertex, layer));
   glVertexArrayAttribBinding(array, 2, 0);
-}
-
-void Output::makeMask(const devices::Image16& alpha) {
-  mask_ = textureOf(GL_R16, alpha.width(), alpha.height());
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTextureSubImage2D(mask_.get(), 0, 0, 0, alpha.width(), alpha.height(), GL_RED, GL_UNSIGNED_SHORT,
-                      alpha.samples().data());
-}
-
-void Output::makeResponse(const OutputPlan& plan) {
-  for (int channel = 0; channel < 3; ++channel) {
-    responseEntries_[channel] = static_cast<int>(plan.inverseResponse[static_cast<std::size_t>(channel)].size());
-  }
-  const auto longest = std::max({responseEntries_.x, responseEntries_.y, responseEntries_.z});
-  response_ = textureOf(GL_R32F, longest, 3);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  for (int channel = 0; channel < 3; ++channel) {
-    glTextureSubImage2D(response_.get(), 0, 0, channel, responseEntries_[channel], 1, GL_RED, GL_FLOAT,
-                        plan.inverseResponse[static_cast<std::size_t>(channel)].data());
-  }
 }
 
 Box Output::touchedBy(const Box& desktopBox) const {
@@ -159,9 +128,9 @@ std::uint64_t Output::draw(DesktopTexture& desktop, const Cursor& cursor, WarpPr
   glViewport(0, 0, resolution_.width, resolution_.height);
   glBindVertexArray(vertexArray_.get());
   glBindTextureUnit(kDesktopUnit, desktop.texture());
-  glBindTextureUnit(kMaskUnit, mask_.get());
-  glBindTextureUnit(kResponseUnit, response_.get());
   glBindTextureUnit(kCursorUnit, cursor.texture());
+  light_.bind();
+  if (variant_.dither) glBindTextureUnit(kNoiseUnit, programs.ditherTile());
   std::uint64_t pixels = 0;
   for (const auto& box : marked_.boxes()) {
     drawBox(box, desktop, cursor, programs);
@@ -191,14 +160,14 @@ void Output::drawBox(const Box& box, const DesktopTexture& desktop, const Cursor
 
 void Output::setUniforms(const devices::GlProgram& program, const DesktopTexture& desktop, const Cursor& cursor) const {
   program.set("desktop", static_cast<int>(kDesktopUnit));
-  program.set("mask", static_cast<int>(kMaskUnit));
-  program.set("inverseResponse", static_cast<int>(kResponseUnit));
   program.set("cursorImage", static_cast<int>(kCursorUnit));
+  program.set("noise", static_cast<int>(kNoiseUnit));
+  program.set("highestCode", variant_.tenBits ? 1023.0F : 255.0F);
+  light_.setUniforms(program);
   program.set("cursorAt", cursor.topLeft());
   program.set("resolution", glm::vec2(resolution_.width, resolution_.height));
   program.set("desktopSize", glm::ivec2(desktop_.width, desktop_.height));
   program.set("tiling", glm::ivec3(desktop.layout().columns(), kTileStride, kTileApron));
-  program.set("responseEntries", responseEntries_);
   program.set("exactAt", exactAt_);
 }
 
@@ -219,6 +188,14 @@ devices::Image8 Output::read() const {
   glGetTextureImage(frame_.get(), 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(pixels.size()), pixels.data());
   auto to = image.samples();
   for (std::size_t i = 0, j = 0; i < pixels.size(); i += 4, j += 3) std::copy_n(&pixels[i], 3, &to[j]);
+  return image;
+}
+
+devices::Image16 Output::read16() const {
+  devices::Image16 image(resolution_, 3);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glGetTextureImage(frame_.get(), 0, GL_RGB, GL_UNSIGNED_SHORT, static_cast<GLsizei>(image.samples().size_bytes()),
+                    image.samples().data());
   return image;
 }
 

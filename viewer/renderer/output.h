@@ -6,19 +6,25 @@
 #include "viewer/renderer/cursor.h"
 #include "viewer/renderer/desktop_texture.h"
 #include "viewer/renderer/mesh_footprint.h"
+#include "viewer/renderer/output_light.h"
 #include "viewer/renderer/output_plan.h"
 #include "viewer/renderer/warp_programs.h"
 #include "viewer/tiles/region.h"
 
 namespace pixelflex::viewer {
 
+enum class FrameFormat {
+  kRgba8,
+  kRgb10,    // ten bits for each colour
+  kRgba32F,  // for measurements: what was sampled, alpha 1 where the mesh is
+};
+
 /// One projector's picture: a frame that is kept, and the parts of it that are out of date. Needs its context current
 /// for everything but mark().
 class Output {
  public:
-  /// `measure`: the frame is RGBA32F and holds what was sampled, alpha 1 where the mesh is. Throws RendererError when
-  /// the plan is not sound.
-  Output(const OutputPlan& plan, const TileLayout& layout, bool measure);
+  /// Throws RendererError when the plan is not sound.
+  Output(const OutputPlan& plan, const TileLayout& layout, FrameFormat format);
 
   /// The projector pixels that read these desktop pixels will be drawn again.
   void mark(const Box& desktopBox);
@@ -32,17 +38,18 @@ class Output {
   [[nodiscard]] devices::Size resolution() const { return resolution_; }
   /// GL_TEXTURE_2D, row 0 at the top of the picture.
   [[nodiscard]] devices::GlName texture() const { return frame_.get(); }
-  /// The frame, top row first.
+  /// The frame, red, green, blue, top row first.
   [[nodiscard]] devices::Image8 read() const;
+  /// The same with the highest code as 65535.
+  [[nodiscard]] devices::Image16 read16() const;
   /// Four channels.
   [[nodiscard]] devices::ImageF readFloat() const;
 
  private:
   [[nodiscard]] Box touchedBy(const Box& desktopBox) const;
-  void makeFrame(bool measure);
+  void makeFrame();
   void makeMesh();
-  void makeMask(const devices::Image16& alpha);
-  void makeResponse(const OutputPlan& plan);
+  void chooseFilter(const OutputPlan& plan);
   void drawBox(const Box& box, const DesktopTexture& desktop, const Cursor& cursor, WarpPrograms& programs) const;
   void setUniforms(const devices::GlProgram& program, const DesktopTexture& desktop, const Cursor& cursor) const;
   void drawMesh(const Box& box) const;
@@ -50,17 +57,16 @@ class Output {
   std::string name_;
   devices::Size resolution_;
   devices::Size desktop_;
+  FrameFormat format_ = FrameFormat::kRgba8;
   WarpVariant variant_;
   glm::ivec2 exactAt_{0, 0};
-  glm::ivec3 responseEntries_{0, 0, 0};
+  OutputLight light_;
   MeshFootprint footprint_;
   Region marked_;
   devices::GlTexture frame_;
   devices::GlFramebuffer framebuffer_;
   devices::GlBuffer vertices_;
   devices::GlVertexArray vertexArray_;
-  devices::GlTexture mask_;
-  devices::GlTexture response_;
 };
 
 }  // namespace pixelflex::viewer

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
@@ -36,21 +37,30 @@ struct WarpMesh {
 
 enum class DesktopTransfer { kSrgb, kLinear };
 enum class Filter { kCatmullRom, kBilinear, kNearest };
+/// What the filter takes means of: the desktop's codes, or their light.
+enum class FilterDomain { kSrgb, kLinear };
 
 /// All that the renderer needs to know about one projector: a value, made by the program from the calibration, off the
-/// render thread.
+/// render thread. Linear light x of the desktop (1 is white) becomes alpha * gain * (colour x) + black, held within 0
+/// and 1, before the inverse response.
 struct OutputPlan {
   std::string name;
   devices::Size resolution;
   devices::Size desktop;
   WarpMesh mesh;
-  devices::Image16 alpha;                             // one channel of `resolution`, 65535 = 1; empty: 1 everywhere
+  glm::mat3 colour{1};
+  devices::Image16 alpha;  // one channel of `resolution`, 65535 = 1; empty: 1 everywhere
+  devices::Image16 gain;   // one channel of any size, a picture stretched over the frame and linear between the centres
+                           // of its pixels, 65535 = 1; empty: 1 everywhere
+  devices::Image16 black;  // one channel of `resolution`, 65535 = largestBlack; empty: 0
+  float largestBlack = 1;  // light
   std::array<std::vector<float>, 3> inverseResponse;  // per channel: device code 0..1 for light^(1/2.2), evenly spaced;
                                                       // empty: sRGB
   DesktopTransfer transfer = DesktopTransfer::kSrgb;
-  Filter filter = Filter::kCatmullRom;
+  Filter filter = Filter::kCatmullRom;  // a mesh that shows the desktop's pixels one to one is not filtered
+  FilterDomain filterDomain = FilterDomain::kSrgb;
   bool dither = true;
-  /// Set: this output shows desktop pixels one to one from here, bit for bit; mesh, alpha and response are not used.
+  /// Set: this output shows desktop pixels one to one from here, bit for bit; mesh, light and response are not used.
   std::optional<glm::ivec2> exactAt;
 };
 

@@ -15,7 +15,8 @@ namespace pixelflex::viewer {
 namespace {
 
 constexpr std::size_t kCodes = 256;
-constexpr std::string_view kToneDefinitions = "#define RESPONSE 0\n#define LINEAR_DESKTOP 0\n";
+constexpr std::string_view kToneDefinitions =
+    "#define RESPONSE 0\n#define LINEAR_DESKTOP 0\n#define DITHER 0\n#define TEN_BITS 0\n";
 
 devices::GlTexture textureOf(GLenum format, devices::Size size, GLint filter = GL_NEAREST) {
   auto texture = devices::GlTexture::create(GL_TEXTURE_2D);

@@ -33,6 +33,12 @@ void prepareState() {
   glEnable(GL_SCISSOR_TEST);
 }
 
+FrameFormat formatOf(const RendererOptions& options) {
+  assert(options.bitsPerColour == 8 || options.bitsPerColour == 10);
+  if (options.measure) return FrameFormat::kRgba32F;
+  return options.bitsPerColour == 10 ? FrameFormat::kRgb10 : FrameFormat::kRgba8;
+}
+
 }  // namespace
 
 WallRenderer::WallRenderer(devices::GlContext& context, RendererOptions options)
@@ -62,7 +68,7 @@ bool WallRenderer::setPlans(const std::vector<OutputPlan>& plans) {
                                       plan.desktop.width, plan.desktop.height, plans.front().name, size.width,
                                       size.height));
     }
-    outputs.emplace_back(plan, layout, options_.measure);
+    outputs.emplace_back(plan, layout, formatOf(options_));
   }
   const bool lost = !desktop_ || desktop_->layout().desktop() != size;
   if (lost) {
@@ -166,6 +172,12 @@ devices::Image8 WallRenderer::readOutput(std::size_t output) {
   const Stopwatch stopwatch(stats_.readTime);
   context_.makeCurrent();
   return outputs_.at(output).read();
+}
+
+devices::Image16 WallRenderer::readOutput16(std::size_t output) {
+  const Stopwatch stopwatch(stats_.readTime);
+  context_.makeCurrent();
+  return outputs_.at(output).read16();
 }
 
 devices::ImageF WallRenderer::readOutputFloat(std::size_t output) {

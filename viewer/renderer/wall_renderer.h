@@ -30,6 +30,7 @@ struct RendererOptions {
   /// For measurements: desktop and frames in RGBA32F, the sampled value comes out as it is. A desktop that holds its
   /// own coordinates comes out as the coordinates that each projector pixel shows.
   bool measure = false;
+  int bitsPerColour = 8;  // of the frames: 8 or 10; what is dithered is rounded to these
 };
 
 /// Draws the desktop for every projector of one GPU. One thread, the context's. Each function makes the context current
@@ -74,7 +75,10 @@ class WallRenderer {
   [[nodiscard]] devices::GlName outputTexture(std::size_t output) const;
   /// The frame as drawn last, red, green, blue, top row first.
   [[nodiscard]] devices::Image8 readOutput(std::size_t output);
-  /// Four channels; with `measure` the sampled value and in alpha 1 where the mesh is, else codes / 255.
+  /// The same in as many bits as it has, the highest code as 65535.
+  [[nodiscard]] devices::Image16 readOutput16(std::size_t output);
+  /// Four channels; with `measure` the sampled value and in alpha 1 where the mesh is, else codes with the highest
+  /// as 1.
   [[nodiscard]] devices::ImageF readOutputFloat(std::size_t output);
   /// The desktop as uploaded, without the pointer.
   [[nodiscard]] devices::Image8 readDesktop();

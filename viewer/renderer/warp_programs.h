@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 
+#include "devices/display/gl_handle.h"
 #include "devices/display/gl_program.h"
 #include "viewer/renderer/output_plan.h"
 
@@ -13,20 +14,27 @@ namespace pixelflex::viewer {
 struct WarpVariant {
   bool exact = false;
   bool measure = false;  // the sampled value itself: no light, mask, response or dither
+  bool colour = false;
   bool mask = false;
+  bool black = false;
   bool response = false;
   bool cursor = false;
   bool dither = false;
+  bool tenBits = false;  // the frame has ten bits for each colour
   DesktopTransfer transfer = DesktopTransfer::kSrgb;
   Filter filter = Filter::kCatmullRom;
+  bool filterLight = false;  // texels are decoded before they are filtered
 };
 
-/// Shaders compiled when first asked for. Needs its context current.
+/// Shaders compiled when first asked for, and the noise that they dither with. Needs its context current.
 class WarpPrograms {
  public:
   [[nodiscard]] const devices::GlProgram& get(const WarpVariant& variant);
+  /// GL_TEXTURE_2D of makeDitherTile().
+  [[nodiscard]] devices::GlName ditherTile();
 
  private:
+  devices::GlTexture ditherTile_;
   std::map<std::string, devices::GlProgram> programs_;  // by the definitions in front
 };
 
