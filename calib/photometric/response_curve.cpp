@@ -27,18 +27,21 @@ std::string joined(const std::vector<Problem>& problems) {
   return text;
 }
 
+Channel withoutFalls(Channel light) {
+  levelFalls(light);
+  return light;
+}
+
 /// What one channel may be accused of.
 class ChannelCheck {
  public:
   ChannelCheck(const Readings& readings, std::size_t channel, const std::string& file)
       : readings_(readings),
         read_(readings.light.at(channel)),
-        levelled_(read_),
+        levelled_(withoutFalls(read_)),
+        range_(levelled_.back() - levelled_.front()),
         name_(kChannels.at(channel)),
-        file_(file) {
-    levelFalls(levelled_);
-    range_ = levelled_.back() - levelled_.front();
-  }
+        file_(file) {}
 
   /// The light without falls; throws ResponseError unless it can be a response.
   [[nodiscard]] Channel normalised() const {
@@ -82,9 +85,9 @@ class ChannelCheck {
   const Readings& readings_;
   const Channel& read_;
   Channel levelled_;
+  double range_;
   std::string_view name_;
   const std::string& file_;
-  double range_ = 0;
 };
 
 /// Standard deviation of the readings' noise, relative to light with a floor of 1 % of white. Third differences take
