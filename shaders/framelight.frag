@@ -4,8 +4,16 @@ uniform sampler2D response;  // 256 x 1: light of each code, per channel
 
 layout(location = 0) out vec4 light;
 
+// Between codes of eight bits, as a frame of more has them, the response is straight.
+float lightOf(float value, int channel) {
+  float place = value * 255.0;
+  int low = min(int(place), 254);
+  float below = texelFetch(response, ivec2(low, 0), 0)[channel];
+  float above = texelFetch(response, ivec2(low + 1, 0), 0)[channel];
+  return mix(below, above, place - float(low));
+}
+
 void main() {
-  ivec3 codes = ivec3(texelFetch(frame, ivec2(gl_FragCoord.xy), 0).rgb * 255.0 + 0.5);
-  light = vec4(texelFetch(response, ivec2(codes.r, 0), 0).r, texelFetch(response, ivec2(codes.g, 0), 0).g,
-               texelFetch(response, ivec2(codes.b, 0), 0).b, 1.0);
+  vec3 device = texelFetch(frame, ivec2(gl_FragCoord.xy), 0).rgb;
+  light = vec4(lightOf(device.r, 0), lightOf(device.g, 1), lightOf(device.b, 2), 1.0);
 }

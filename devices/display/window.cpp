@@ -5,6 +5,8 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "devices/display/glfw_error.h"
@@ -42,6 +44,7 @@ void setHints(const WindowRequest& request) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
+  for (const int hint : {GLFW_RED_BITS, GLFW_GREEN_BITS, GLFW_BLUE_BITS}) glfwWindowHint(hint, request.bitsPerColour);
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   glfwWindowHint(GLFW_DECORATED, request.borderless ? GLFW_FALSE : GLFW_TRUE);
@@ -138,6 +141,19 @@ Size Window::size() const {
   Size size;
   glfwGetFramebufferSize(state_->handle, &size.width, &size.height);
   return size;
+}
+
+int Window::bitsPerColour() {
+  makeCurrent();
+  constexpr GLuint kWindow = 0;
+  int fewest = std::numeric_limits<int>::max();
+  for (const GLenum colour : {GL_FRAMEBUFFER_ATTACHMENT_RED_SIZE, GL_FRAMEBUFFER_ATTACHMENT_GREEN_SIZE,
+                              GL_FRAMEBUFFER_ATTACHMENT_BLUE_SIZE}) {
+    GLint bits = 0;
+    glGetNamedFramebufferAttachmentParameteriv(kWindow, GL_BACK_LEFT, colour, &bits);
+    fewest = std::min(fewest, bits);
+  }
+  return fewest;
 }
 
 glm::ivec2 Window::position() const {

@@ -22,6 +22,7 @@ struct WindowRequest {
   bool visible = true;           // false: only a GL context
   bool paced = false;            // present() waits for the monitor's refresh; at most one window of a wall
   bool showPointer = true;       // the system's own pointer, over this window
+  int bitsPerColour = 8;         // wished for; what the display gives is told by Window::bitsPerColour()
 };
 
 /// What happens to a window, called from EventLoop::wait() and poll() on the main thread. Each may be empty.
@@ -49,6 +50,8 @@ class Window final : public GlContext {
 
   /// Of the picture, in pixels.
   [[nodiscard]] Size size() const;
+  /// Of the window's framebuffer, the fewest of the three colours.
+  [[nodiscard]] int bitsPerColour();
   /// Of the top-left corner on the display.
   [[nodiscard]] glm::ivec2 position() const;
   void setTitle(const std::string& title);

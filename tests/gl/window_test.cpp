@@ -93,6 +93,29 @@ TEST_F(WindowTest, ABorderlessWindowIsWhereItWasAskedForAndShowsRowZeroOnTop) {
   EXPECT_TRUE(log.take().empty());
 }
 
+TEST_F(WindowTest, TenBitsAreNotToBeHadEverywhere) {
+  Window window(loop_, {.title = "p1", .size = {64, 64}, .bitsPerColour = 10});
+  EXPECT_EQ(window.bitsPerColour(), 8);
+}
+
+TEST(DeepWindowTest, TenBitsReachTheScreen) {
+  testing::XServer server(640, 480, 30);
+  EventLoop loop(server.display());
+  Window window(loop,
+                {.title = "p1", .size = {64, 64}, .at = glm::ivec2(0, 0), .borderless = true, .bitsPerColour = 10});
+  EXPECT_EQ(window.bitsPerColour(), 10);
+  auto texture = GlTexture::create(GL_TEXTURE_2D);
+  glTextureStorage2D(texture.get(), 1, GL_RGB10_A2, 64, 64);
+  const std::vector<std::uint32_t> pixels(std::size_t{64} * 64, 513U | 2U << 10 | 1022U << 20);  // red lowest
+  glTextureSubImage2D(texture.get(), 0, 0, 0, 64, 64, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, pixels.data());
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (server.colourAt(30, 30) == 0 && std::chrono::steady_clock::now() < end) {
+    window.present(texture.get(), {64, 64});
+    loop.wait(20ms);
+  }
+  EXPECT_EQ(server.colourAt(30, 30), 513U << 20 | 2U << 10 | 1022U);
+}
+
 TEST_F(WindowTest, AWindowShowsTexturesOfTheOneItSharesWith) {
   Window renderer(loop_, {.title = "hidden", .size = {16, 16}, .visible = false});
   const auto picture = textureOf(quarters({64, 64}));

@@ -26,10 +26,10 @@ std::string readNumber(int pipe) {
 
 }  // namespace
 
-XServer::XServer(int width, int height) {
+XServer::XServer(int width, int height, int depth) : pixelMask_((1U << depth) - 1) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe");
-  const auto screen = std::to_string(width) + "x" + std::to_string(height) + "x24";
+  const auto screen = std::to_string(width) + "x" + std::to_string(height) + "x" + std::to_string(depth);
   const auto writeEnd = std::to_string(ends[1]);
   process_ = fork();
   if (process_ == 0) {
@@ -61,7 +61,7 @@ std::uint32_t XServer::colourAt(int x, int y) const {
   if (image == nullptr) return 0xFFFFFFFF;
   const auto pixel = static_cast<std::uint32_t>(XGetPixel(image, 0, 0));
   XDestroyImage(image);
-  return pixel & 0xFFFFFF;
+  return pixel & pixelMask_;
 }
 
 ::Window XServer::findWindow(const std::string& title) const {

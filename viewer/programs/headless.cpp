@@ -58,7 +58,7 @@ int runHeadless(const ViewOptions& options, const WallPlan& wall) {
     if (options.screenshot && view.hasPicture()) {
       const auto settled = view.lastChange() + options.settle;
       if (WallView::Clock::now() >= settled) {
-        writeScreenshot(*options.screenshot, view.renderer());
+        writeScreenshot(*options.screenshot, view.renderer(), options.depth);
         fmt::print("{} projectors and a desktop of {}x{} in {}\n", view.renderer().outputCount(), view.desktop().width,
                    view.desktop().height, *options.screenshot);
         break;
@@ -71,17 +71,22 @@ int runHeadless(const ViewOptions& options, const WallPlan& wall) {
   return 0;
 }
 
-void writeScreenshot(const std::string& folder, WallRenderer& renderer) {
+void writeScreenshot(const std::string& folder, WallRenderer& renderer, int depth) {
   const std::filesystem::path path = folder;
   // Reading back needs this thread's context; compressing does not, and takes longer.
   std::vector<std::future<void>> writing;
-  const auto write = [&](const std::string& name, devices::Image8 image) {
+  const auto write = [&](const std::string& name, auto image) {
     if (writing.size() >= 2) writing[writing.size() - 2].wait();
     writing.push_back(std::async(
         std::launch::async, [file = path / name, picture = std::move(image)] { devices::writePng(file, picture); }));
   };
   for (std::size_t i = 0; i < renderer.outputCount(); ++i) {
-    write(renderer.outputName(i) + ".png", renderer.readOutput(i));
+    const auto name = renderer.outputName(i) + ".png";
+    if (depth == 10) {
+      write(name, renderer.readOutput16(i));
+    } else {
+      write(name, renderer.readOutput(i));
+    }
   }
   write("desktop.png", renderer.readDesktop());
   for (auto& file : writing) file.get();

@@ -42,6 +42,10 @@ int main(int argc, char** argv) {
   app.add_option("--projectors", options.projectors, "only these projectors")->delimiter(',');
   app.add_flag("--view-only", options.viewOnly, "send neither pointer nor keys");
   app.add_option("--password-file", options.passwordFile, "the first line is the password; mode 0600");
+  app.add_option("--depth", options.depth,
+                 "bits for each colour that the projectors are sent, 8 or 10; with 10 their screenshots are 16-bit PNG")
+      ->check(CLI::IsMember({8, 10}))
+      ->capture_default_str();
   app.add_flag("--stats", options.stats, "print what was uploaded and drawn, and how long it took");
   try {
     app.parse(argc, argv);

@@ -20,6 +20,7 @@ struct ViewOptions {
   bool viewOnly = false;
   std::optional<std::string> passwordFile;
   bool stats = false;
+  int depth = 8;  // bits for each colour of a projector's picture: 8 or 10
 };
 
 }  // namespace pixelflex::viewer

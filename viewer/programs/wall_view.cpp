@@ -32,7 +32,10 @@ SessionOptions sessionOptions(const ViewOptions& options) {
 
 WallView::WallView(const ViewOptions& options, const WallPlan& wall, devices::GlContext& context,
                    const std::function<void()>& wake)
-    : wall_(wall), renderer_(context), belt_(wake), session_(sessionOptions(options), belt_, wake) {
+    : wall_(wall),
+      renderer_(context, {.bitsPerColour = options.depth}),
+      belt_(wake),
+      session_(sessionOptions(options), belt_, wake) {
   // What a screenshot shows is the desktop, as a screenshot taken on the server does.
   if (options.screenshot) renderer_.showCursor(false);
 }

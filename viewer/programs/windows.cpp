@@ -42,15 +42,25 @@ std::optional<std::string> chooseDisplay(const WallPlan& wall) {
   return chosen;
 }
 
+/// The options with a depth that the display's windows can show.
+ViewOptions atDepthOf(devices::Window& window, const ViewOptions& options) {
+  ViewOptions possible = options;
+  if (options.depth <= window.bitsPerColour()) return possible;
+  fmt::print(stderr, "pixelflex-view: warning: windows on this display have {} bits for each colour, so 8 are sent\n",
+             window.bitsPerColour());
+  possible.depth = 8;
+  return possible;
+}
+
 /// The windows of a wall and what they show. Main thread.
 class WallWindows {
  public:
   WallWindows(const ViewOptions& options, const WallPlan& wall)
-      : options_(options),
-        wall_(wall),
+      : wall_(wall),
         loop_(chooseDisplay(wall)),
-        hidden_(loop_, {.title = "PixelFlex", .size = {16, 16}, .visible = false}),
-        view_(options, wall, hidden_, [this] { loop_.wake(); }),
+        hidden_(loop_, {.title = "PixelFlex", .size = {16, 16}, .visible = false, .bitsPerColour = options.depth}),
+        options_(atDepthOf(hidden_, options)),
+        view_(options_, wall, hidden_, [this] { loop_.wake(); }),
         input_(view_, [this] { quit_ = true; }) {
     for (std::size_t i = 0; i < wall.projectors().size(); ++i) open(i);
     if (!simulated_.empty()) openRoom();
@@ -94,7 +104,8 @@ class WallWindows {
                                    .at = output.at,
                                    .borderless = true,
                                    .paced = windows_.empty(),
-                                   .showPointer = false};
+                                   .showPointer = false,
+                                   .bitsPerColour = options_.depth};
     if (output.kind == calib::OutputKind::kMonitor) {
       const auto monitor = devices::findMonitor(loop_, output.monitor);
       if (monitor.size != projector.resolution) {
@@ -166,7 +177,7 @@ class WallWindows {
   bool screenshotDone() {
     if (!options_.screenshot || !view_.hasPicture()) return false;
     if (WallView::Clock::now() < view_.lastChange() + options_.settle) return false;
-    writeScreenshot(*options_.screenshot, view_.renderer());
+    writeScreenshot(*options_.screenshot, view_.renderer(), options_.depth);
     return true;
   }
 
@@ -179,10 +190,10 @@ class WallWindows {
     }
   }
 
-  const ViewOptions& options_;
   const WallPlan& wall_;
   devices::EventLoop loop_;
   devices::Window hidden_;
+  ViewOptions options_;
   WallView view_;
   Input input_;
   std::vector<OutputWindow> windows_;
