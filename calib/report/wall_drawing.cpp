@@ -14,6 +14,11 @@
 namespace pixelflex::calib {
 namespace {
 
+/// Where the wall is what the camera sees, fiducials have no place on it.
+std::vector<Fiducial> shownFiducials(const Wall& wall) {
+  return wall.surface.shape == SurfaceShape::kCamera ? std::vector<Fiducial>{} : wall.surface.fiducials;
+}
+
 struct Frame {
   glm::dvec2 low{1e300};
   glm::dvec2 high{-1e300};
@@ -45,7 +50,7 @@ class WallDrawing {
  public:
   WallDrawing(const Wall& wall, const Calibration& calibration, const Summary& summary)
       : wall_(wall), calibration_(calibration), summary_(summary), frame_(frameOf(summary)) {
-    for (const auto& fiducial : wall.surface.fiducials) {
+    for (const auto& fiducial : shownFiducials(wall)) {
       if (!wall.isFlat()) frame_.include(fiducial.pointInWall);
     }
     const glm::dvec2 extent = frame_.high - frame_.low;
@@ -110,7 +115,7 @@ class WallDrawing {
   }
 
   void drawFiducials() {
-    for (const auto& fiducial : wall_.surface.fiducials) {
+    for (const auto& fiducial : shownFiducials(wall_)) {
       const glm::dvec2 at = fiducial.pointInWall;
       svg_ += fmt::format(
           "<path class=\"fiducial\" d=\"M{0:.1f} {1:.1f}h{2:.1f}M{3:.1f} {4:.1f}v{2:.1f}\" stroke-width=\"{5:.2f}\">"
