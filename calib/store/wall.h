@@ -73,7 +73,9 @@ struct ProjectorConfig {
 };
 
 struct Blend {
-  double densityExponent = 2;  // n of equation 7
+  double densityExponent = 2;        // n of equation 7
+  std::optional<double> uniformity;  // match the projectors' light, 0 brightest to 1 flattest; none: leave it as it is
+  bool evenBlack = false;            // lift black where fewer projectors leak, for some contrast
   bool operator==(const Blend&) const = default;
 };
 

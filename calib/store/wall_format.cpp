@@ -57,6 +57,13 @@ std::string projectorText(const ProjectorConfig& projector) {
   return text;
 }
 
+std::string blendText(const Blend& blend) {
+  std::string text = fmt::format("blend: {{density_exponent: {}", yamlNumber(blend.densityExponent));
+  if (blend.uniformity) text += ", uniformity: " + yamlNumber(*blend.uniformity);
+  if (blend.evenBlack) text += ", black: even";
+  return text + "}\n";
+}
+
 std::string displayText(const DisplayRequest& display) {
   std::string aspect = "any";
   if (const auto& ratio = display.aspect) {
@@ -87,7 +94,7 @@ std::string formatWall(const Wall& wall) {
   if (wall.rig) text += fmt::format("rig: {}\n", yamlText(*wall.rig));
   text += surfaceText(wall.surface) + cameraText(wall.camera) + "projectors:\n";
   for (const auto& projector : wall.projectors) text += projectorText(projector);
-  text += fmt::format("blend: {{density_exponent: {}}}\n", yamlNumber(wall.blend.densityExponent));
+  text += blendText(wall.blend);
   text += displayText(wall.display) + desktopText(wall.desktop);
   return text + fmt::format("transfer: {}\n", wall.transfer == Transfer::kLinear ? "linear" : "srgb");
 }

@@ -70,6 +70,14 @@ DesktopRequest readDesktop(const Node& node) {
 Blend readBlend(const Node& node) {
   Blend blend;
   if (const Node n = node.optional("density_exponent"); n.defined()) blend.densityExponent = n.number(0, 16);
+  if (const Node uniformity = node.optional("uniformity"); uniformity.defined()) {
+    if (!uniformity.isScalar() || uniformity.text() != "off") blend.uniformity = uniformity.number(0, 1);
+  }
+  if (const Node black = node.optional("black"); black.defined()) {
+    const std::string text = black.isScalar() ? black.text() : "";
+    if (text != "native" && text != "even") black.problem("expected native or even, found " + quotedForMessage(text));
+    blend.evenBlack = text == "even";
+  }
   node.refuseUnknownKeys();
   return blend;
 }
