@@ -14,6 +14,10 @@ add_test(NAME accuracy_pair COMMAND accuracy_table --strict --rigs pair)
 add_test(NAME accuracy_inset COMMAND accuracy_table --rigs inset)
 set_tests_properties(accuracy_pair accuracy_inset PROPERTIES LABELS "accuracy;gl" TIMEOUT 300 ENVIRONMENT "LIBGL_ALWAYS_SOFTWARE=1")
 
+# Light of the wall, photographed again by the audience.
+pixelflex_test(light_match_test LABEL gl SOURCES accuracy/light_test.cpp gl/plans.cpp
+  LINK pixelflex_test_calibration pixelflex_test_support pixelflex_plan pixelflex_renderer)
+
 # The largest rectangle against brute force.
 pixelflex_test(display_optimum_test LABEL unit SOURCES accuracy/display_optimum_test.cpp LINK pixelflex_geometry)
 

@@ -14,8 +14,9 @@ using Eigen::Index;
 
 constexpr Index kOfCamera = 2;
 constexpr Index kOfProjector = 5;  // level, two radial terms about the frame's middle, two of a slope
-/// A slope may be a decentred projector lens or the camera's; a weak prior gives it to the camera.
-constexpr double kSlopePrior = 30;
+/// A slope may be a decentred projector lens or the camera's; the prior, in parts of a projector's samples, gives it to
+/// the camera.
+constexpr double kSlopePrior = 1;
 
 class VignettingFit {
  public:
@@ -65,8 +66,9 @@ class VignettingFit {
       }
     }
     for (Index first = kOfCamera; first < size_; first += kOfProjector) {
-      normal(first + 3, first + 3) += kSlopePrior;
-      normal(first + 4, first + 4) += kSlopePrior;
+      const double prior = kSlopePrior * normal(first, first);  // the level's diagonal counts the samples
+      normal(first + 3, first + 3) += prior;
+      normal(first + 4, first + 4) += prior;
     }
     return normal.ldlt().solve(right);
   }

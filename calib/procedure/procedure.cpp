@@ -12,13 +12,31 @@
 #include "calib/procedure/display_step.h"
 #include "calib/procedure/fingerprint.h"
 #include "calib/procedure/geometry_step.h"
+#include "calib/procedure/light_step.h"
 #include "calib/procedure/surface_step.h"
 #include "calib/procedure/wording.h"
+#include "calib/store/readings_file.h"
 #include "calib/store/yaml_reader.h"
 #include "devices/image/atomic_file.h"
 #include "devices/image/png_file.h"
 
 namespace pixelflex::calib {
+
+namespace {
+
+/// Of white, as an instrument read it; negative when that cannot be told.
+double leakOf(const std::filesystem::path& file) {
+  const Readings readings = readReadings(readStoreFile(file.string()), file.string());
+  double black = 0;
+  double white = 0;
+  for (const auto& channel : readings.light) {
+    black += channel.front();
+    white += channel.back();
+  }
+  return readings.problems.empty() && white > black ? black / (white - black) : -1;
+}
+
+}  // namespace
 
 struct Procedure::Step {
   std::string name;
@@ -139,6 +157,10 @@ std::string Procedure::fingerprint(const std::string& step) const {
     print.add(wall_.blend.densityExponent).add(formatNudges(nudges_));
   } else {
     previous("projectors");
+    if (matchesLight()) {
+      print.add(wall_.blend.uniformity.value_or(-1)).add(wall_.blend.evenBlack ? 1 : 0).add(measureStamp("patterns"));
+      previous("blend");
+    }
     for (const auto& p : wall_.projectors) {
       print.add(p.gamma ? readStoreFile((folder_ / *p.gamma).string()) : "none");
     }
@@ -225,6 +247,8 @@ std::string Procedure::runProjectors() {
   auto& source = photographs("projectors");
   tookPhotographs_ = true;
   const auto wanted = wantedProjectors();
+  std::map<std::string, std::optional<LightMatch>> lights;
+  for (const auto& known : calibration_.projectors) lights[known.name] = known.light;
   std::erase_if(calibration_.projectors,
                 [&](const auto& known) { return options_.only.empty() || options_.only.contains(known.name); });
   const std::size_t kept = calibration_.projectors.size();
@@ -234,6 +258,7 @@ std::string Procedure::runProjectors() {
   if (seen.empty()) throw ProcedureError("no projector could be calibrated");
   const auto surfaces = surfacesFor(seen);
   for (const auto& projector : seen) addProjector(projector, surfaces);
+  for (auto& projector : calibration_.projectors) projector.light = lights[projector.name];
   if (calibration_.projectors.size() == kept) throw ProcedureError("no projector could be calibrated");
   std::ranges::sort(calibration_.projectors, {}, [&](const ProjectorCalibration& p) {
     return std::ranges::find(wall_.projectors, p.name, &ProjectorConfig::name) - wall_.projectors.begin();
@@ -315,6 +340,7 @@ std::string Procedure::runGamma() {
   std::size_t measured = 0;
   for (auto& projector : calibration_.projectors) {
     projector.response.reset();
+    if (options_.only.empty()) projector.light.reset();
     const auto config = std::ranges::find(wall_.projectors, projector.name, &ProjectorConfig::name);
     if (config == wall_.projectors.end()) continue;
     const auto& gamma = config->gamma;
@@ -325,7 +351,34 @@ std::string Procedure::runGamma() {
     ++measured;
   }
   const std::size_t assumed = calibration_.projectors.size() - measured;
-  return count(measured, "response") + (assumed > 0 ? ", sRGB assumed for " + std::to_string(assumed) : "");
+  const std::string responses =
+      count(measured, "response") + (assumed > 0 ? ", sRGB assumed for " + std::to_string(assumed) : "");
+  return matchesLight() && options_.only.empty() ? responses + ", " + matchProjectors() : responses;
+}
+
+bool Procedure::matchesLight() const {
+  return wall_.blend.uniformity || wall_.blend.evenBlack;
+}
+
+std::string Procedure::matchProjectors() {
+  auto& source = photographs("gamma");
+  std::vector<devices::Image16> masks;
+  std::vector<double> leak;
+  for (const auto& projector : calibration_.projectors) {
+    const std::string path = projector.alpha.value_or("");
+    const auto painted = masks_.find(path);
+    masks.push_back(painted != masks_.end() ? painted->second : devices::readPng16(folder_ / path));
+    const auto config = std::ranges::find(wall_.projectors, projector.name, &ProjectorConfig::name);
+    leak.push_back(config != wall_.projectors.end() && config->gamma ? leakOf(folder_ / *config->gamma) : -1);
+  }
+  const LightResult light = matchLight(wall_, calibration_, method_, masks, leak, source, progress_);
+  for (auto& projector : calibration_.projectors) projector.light = light.matches.at(projector.name);
+  masks_.insert(light.images.begin(), light.images.end());
+  std::string text = "light matched at " + rounded(100 * light.kept, 0) + " % of it";
+  if (light.contrastEven > 0) {
+    text += ", black even: contrast " + rounded(light.contrastEven, 0) + " of " + rounded(light.contrastNative, 0);
+  }
+  return text;
 }
 
 void Procedure::save() {

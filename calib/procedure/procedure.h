@@ -71,6 +71,8 @@ class Procedure {
   std::string keepOrFindDisplay();
   std::string runBlend();
   std::string runGamma();
+  [[nodiscard]] bool matchesLight() const;
+  std::string matchProjectors();
 
   [[nodiscard]] std::vector<const ProjectorConfig*> wantedProjectors() const;
   [[nodiscard]] std::vector<SurfaceFit> surfacesFor(const std::vector<SeenProjector>& seen);

@@ -108,9 +108,10 @@ void requireProjectors(const Wall& wall, const std::string& option, const std::v
 }
 
 /// Measured steps can be left alone when their photographs are out of reach but only later ones were asked for.
-bool needsPhotographs(const Arguments& arguments) {
-  const auto measured = [](const std::string& step) {
-    return step == "camera" || step == "surface" || step == "projectors";
+bool needsPhotographs(const Wall& wall, const Arguments& arguments) {
+  const bool matchesLight = wall.blend.uniformity || wall.blend.evenBlack;
+  const auto measured = [&](const std::string& step) {
+    return step == "camera" || step == "surface" || step == "projectors" || (step == "gamma" && matchesLight);
   };
   return arguments.steps.empty() || std::ranges::any_of(arguments.steps, measured);
 }
@@ -161,7 +162,7 @@ void calibrate(const Arguments& arguments) {
   if (arguments.check) return check(folder, wall, arguments);
   changeNudges(folder, wall, arguments);
   Source source;
-  if (needsPhotographs(arguments)) source = openSource(folder, wall, arguments);
+  if (needsPhotographs(wall, arguments)) source = openSource(folder, wall, arguments);
   ConsoleProgress progress;
   Procedure procedure(folder, wall, hasCalibration(folder) ? loadCalibration(folder) : Calibration{},
                       source.photographs.get(), progress);

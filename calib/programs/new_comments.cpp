@@ -43,7 +43,10 @@ constexpr std::array kRemarks = {
            "\"tcp://10.0.0.9:2101\"}`.\n"},
     Remark{"    flat:",
            "    # The screen's top-left pixel shows this desktop pixel, one to one; no camera is needed.\n"},
-    Remark{"blend:", "\n# The exponent n of the blending weights: larger values favour the denser projector more.\n"},
+    Remark{"blend:",
+           "\n# The exponent n of the blending weights: larger values favour the denser projector more.\n"
+           "# `uniformity` matches the projectors' light and colour, from 0 (brightest) to 1 (flattest), or off;\n"
+           "# `black: even` lifts black to where the most projectors overlap, at a cost in contrast; else native.\n"},
     Remark{"display:",
            "# The display area on the wall: `aspect` is any or W:H, `margin` the desktop pixels kept clear of the "
            "edge.\n"},

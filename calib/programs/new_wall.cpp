@@ -13,6 +13,9 @@
 namespace pixelflex::calib {
 namespace {
 
+/// Steps between projectors are gone, a slow fall towards the corners stays: what nobody sees costs no light.
+constexpr double kUsualUniformity = 0.5;
+
 constexpr int kMaxScreens = 64;
 constexpr int kMaxExtent = 32768;
 constexpr std::int64_t kMaxArea = std::int64_t{1} << 29;
@@ -125,7 +128,8 @@ std::vector<NewFile> filesOfFlatWall(const FlatGrid& grid) {
 
 std::vector<NewFile> filesOfRig(const Rig& rig, const std::string& rigText) {
   const std::string rigFile = "rig.yaml";
-  const Wall wall = wallOfRig(rig, rigFile);
+  Wall wall = wallOfRig(rig, rigFile);
+  wall.blend.uniformity = kUsualUniformity;
   std::vector<NewFile> files = {{rigFile, rigText}};
   for (std::size_t i = 0; i < rig.projectors.size(); ++i) {
     const auto& gamma = wall.projectors.at(i).gamma;
@@ -138,6 +142,7 @@ std::vector<NewFile> filesOfRig(const Rig& rig, const std::string& rigText) {
 
 std::vector<NewFile> filesOfMonitors(const std::vector<FoundMonitor>& monitors) {
   Wall wall;
+  wall.blend.uniformity = kUsualUniformity;
   wall.camera.checkerboard = Checkerboard{};
   for (const auto& [id, corner] : {std::pair(0, glm::dvec2(0, 0)), std::pair(1, glm::dvec2(3000, 0)),
                                    std::pair(2, glm::dvec2(3000, 1500)), std::pair(3, glm::dvec2(0, 1500))}) {

@@ -5,9 +5,11 @@
 
 namespace pixelflex::calib {
 
-CalibratedRig calibrateRig(SimulatedWall& room, const std::filesystem::path& folder, std::optional<Method> method) {
+CalibratedRig calibrateRig(SimulatedWall& room, const std::filesystem::path& folder, std::optional<Method> method,
+                           const Blend& blend) {
   CalibratedRig result;
   result.wall = wallOfRig(room.rig(), "rig.yaml");
+  result.wall.blend = blend;
   std::vector<devices::Projector*> projectors;
   for (std::size_t i = 0; i < room.projectorCount(); ++i) projectors.push_back(&room.projector(i));
   for (const auto& projector : room.rig().projectors) {

@@ -26,6 +26,6 @@ struct CalibratedRig {
   std::vector<std::string> warnings;
 };
 [[nodiscard]] CalibratedRig calibrateRig(SimulatedWall& room, const std::filesystem::path& folder,
-                                         std::optional<Method> method = std::nullopt);
+                                         std::optional<Method> method = std::nullopt, const Blend& blend = {});
 
 }  // namespace pixelflex::calib

@@ -1,0 +1,223 @@
+#include "calib/procedure/light_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "calib/estimate/light_field.h"
+#include "calib/photometric/black_lift.h"
+#include "calib/photometric/gamut.h"
+#include "calib/photometric/light_error.h"
+#include "calib/photometric/luminance_target.h"
+#include "calib/procedure/procedure_error.h"
+
+namespace pixelflex::calib {
+namespace {
+
+using devices::Image16;
+using devices::ImageF;
+
+constexpr int kNodesAcross = 96;     // of a projector's light field and gain map
+constexpr int kRasterAcross = 480;   // of the display
+constexpr double kViewDegrees = 60;  // the display's width as the audience sees it from a usual place
+
+devices::Size latticeOf(devices::Size resolution) {
+  return {kNodesAcross,
+          std::max(2, static_cast<int>(std::lround(double(kNodesAcross) * resolution.height / resolution.width)))};
+}
+
+WallRaster rasterOf(const Display& display) {
+  const double pitch = (display.right - display.left) / kRasterAcross;
+  const int rows = std::max(2, static_cast<int>(std::ceil((display.bottom - display.top) / pitch)));
+  return {{display.left, display.top}, pitch, {kRasterAcross, rows}};
+}
+
+/// Bilinear among the nodes around a place of the frame, which stand in the middles of their cells; 0 where one of them
+/// was not seen.
+double fieldAt(const ImageF& field, glm::dvec2 inFrame, int channel) {
+  const glm::dvec2 p = glm::dvec2(inFrame.x * field.width(), inFrame.y * field.height()) - 0.5;
+  const double x = std::clamp(p.x, 0.0, field.width() - 1.001);
+  const double y = std::clamp(p.y, 0.0, field.height() - 1.001);
+  const int column = static_cast<int>(x);
+  const int row = static_cast<int>(y);
+  double sum = 0;
+  for (int k = 0; k < 4; ++k) {
+    const double value = field.at(column + k % 2, row + k / 2, channel);
+    if (value <= 0) return 0;
+    sum += value * (k % 2 == 1 ? x - column : 1 - (x - column)) * (k / 2 == 1 ? y - row : 1 - (y - row));
+  }
+  return sum;
+}
+
+double luminance(const ImageF& field, glm::dvec2 inFrame) {
+  double sum = 0;
+  for (int c = 0; c < 3; ++c) sum += kCameraLuminance[static_cast<std::size_t>(c)] * fieldAt(field, inFrame, c);
+  return sum;
+}
+
+/// White of a projector in the camera's channels: the columns are what each of its channels adds. A camera's channels
+/// are taken to see one projector channel each.
+Matrix3 primariesOf(const ImageF& field) {
+  std::array<double, 3> sum{};
+  for (int y = 0; y < field.height(); ++y) {
+    for (int x = 0; x < field.width(); ++x) {
+      for (int c = 0; c < 3; ++c) sum[static_cast<std::size_t>(c)] += field.at(x, y, c);
+    }
+  }
+  return {sum[0], 0, 0, 0, sum[1], 0, 0, 0, sum[2]};
+}
+
+class LightMatcher {
+ public:
+  LightMatcher(const Wall& wall, const Calibration& calibration, const std::vector<Image16>& masks)
+      : wall_(wall), calibration_(calibration), masks_(masks), raster_(rasterOf(*calibration.display)) {
+    for (const auto& projector : calibration.projectors) mappings_.emplace_back(projector);
+  }
+
+  void photograph(Method method, Photographs& source, Progress& progress) {
+    const CameraMapping camera(*calibration_.camera);
+    fields_.resize(mappings_.size());
+    std::vector<SurfaceFit> surfaces = {*calibration_.surface};
+    surfaces.insert(surfaces.end(), calibration_.places.begin(), calibration_.places.end());
+    int done = 0;
+    for (std::size_t i = 0; i < mappings_.size(); ++i) {
+      const auto& projector = calibration_.projectors[i];
+      const int place = placeOf(projector.name, source);
+      const auto patterns = patternsOf(method, projector.resolution);
+      const auto black = source.pattern(projector.name, patterns[0]);
+      const auto white = source.pattern(projector.name, patterns[1]);
+      if (black.size() != calibration_.camera->size || white.size() != black.size()) {
+        throw ProcedureError(patternPath(projector.name, patterns[1]).string() +
+                             ": not of the size that the camera was calibrated at");
+      }
+      fields_[i] = measureLight(black, white, mappings_[i], ScreenView(surfaces.at(static_cast<std::size_t>(place))),
+                                camera, latticeOf(projector.resolution));
+      progress.advance(++done, static_cast<int>(mappings_.size()), projector.name + " white");
+    }
+  }
+
+  LightResult match(const std::vector<double>& leak) {
+    divideVignetting();
+    matchColour();
+    fillMaps(leak);
+    const double perDegree = kRasterAcross / kViewDegrees;
+    LightResult result;
+    if (wall_.blend.evenBlack) makeRoomForBlack(leak, perDegree);
+    const LuminanceTarget target = luminanceTarget(maps_, wall_.blend.uniformity.value_or(0), perDegree);
+    result.kept = target.kept;
+    for (std::size_t i = 0; i < mappings_.size(); ++i) addMatch(i, target, result);
+    if (black_) {
+      result.contrastNative = black_->contrastNative;
+      result.contrastEven = black_->contrastEven;
+    }
+    return result;
+  }
+
+ private:
+  /// The first place from which the projector is seen.
+  static int placeOf(const std::string& name, Photographs& source) {
+    for (int place = 0; place < source.placeCount(); ++place) {
+      source.choosePlace(place);
+      if (source.hasProjector(name)) return place;
+    }
+    throw ProcedureError("projector " + name + ": no photograph of its white; the light cannot be matched without it");
+  }
+
+  void divideVignetting() {
+    std::vector<SeenLight> samples;
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      const auto own = samplesOf(fields_[i], i, mappings_[i]);
+      samples.insert(samples.end(), own.begin(), own.end());
+    }
+    const CameraVignetting vignetting = estimateVignetting(samples, fields_.size(), *calibration_.camera);
+    for (const auto& field : fields_) corrected_.push_back(withoutVignetting(field, vignetting));
+  }
+
+  void matchColour() {
+    std::vector<Matrix3> primaries;
+    for (const auto& field : corrected_) primaries.push_back(primariesOf(field));
+    gamut_ = commonGamut(primaries);
+  }
+
+  void fillMaps(const std::vector<double>& leak) {
+    for (std::size_t i = 0; i < mappings_.size(); ++i) {
+      auto& maps = maps_.emplace_back();
+      maps.white = ImageF(raster_.size, 1);
+      maps.share = ImageF(raster_.size, 1);
+      if (wall_.blend.evenBlack) maps.black = ImageF(raster_.size, 1);
+      for (int y = 0; y < raster_.size.height; ++y) {
+        for (int x = 0; x < raster_.size.width; ++x) fillPixel(i, x, y, leak[i], maps);
+      }
+    }
+  }
+
+  void fillPixel(std::size_t i, int x, int y, double leak, ProjectorLightMaps& maps) const {
+    const auto& mapping = mappings_[i];
+    const auto p = mapping.projectorFromWall(raster_.wallFromRaster({x + 0.5, y + 0.5}));
+    if (!p || !mapping.insideFrame(*p)) return;
+    const devices::Size size = mapping.resolution();
+    const double native = luminance(corrected_[i], {p->x / size.width, p->y / size.height});
+    maps.white.at(x, y) = static_cast<float>(native * gamut_.projectors[i].kept);
+    if (!maps.black.empty()) maps.black.at(x, y) = static_cast<float>(native * leak);
+    const int column = std::min(static_cast<int>(p->x), size.width - 1);
+    const int row = std::min(static_cast<int>(p->y), size.height - 1);
+    maps.share.at(x, y) = static_cast<float>(masks_[i].at(column, row) / 65535.0);
+  }
+
+  /// The lift takes room from white: first the black, then a target for what is left.
+  void makeRoomForBlack(const std::vector<double>& leak, double perDegree) {
+    for (std::size_t i = 0; i < leak.size(); ++i) {
+      if (leak[i] >= 0) continue;
+      throw ProcedureError("black: even needs gamma readings of every projector, which tell how much it leaks; " +
+                           calibration_.projectors[i].name + " has none");
+    }
+    const LuminanceTarget first = luminanceTarget(maps_, wall_.blend.uniformity.value_or(0), perDegree);
+    black_ = blackTarget(maps_, first.target, 0);
+    for (auto& maps : maps_) {
+      for (float& white : maps.white.samples()) white *= static_cast<float>(1 - black_->largestLift);
+    }
+  }
+
+  void addMatch(std::size_t i, const LuminanceTarget& target, LightResult& result) const {
+    const std::string& name = calibration_.projectors[i].name;
+    LightMatch match;
+    match.colour = gamut_.projectors[i].colour;
+    match.gain = "calibration/" + name + "-gain.png";
+    result.images[*match.gain] =
+        gainMap(mappings_[i], maps_[i].white, target.target, raster_, latticeOf(mappings_[i].resolution()));
+    if (black_) {
+      match.black = "calibration/" + name + "-black.png";
+      result.images[*match.black] = blackLiftMap(i, mappings_, maps_, *black_, raster_, masks_[i]);
+    }
+    result.matches[name] = match;
+  }
+
+  const Wall& wall_;
+  const Calibration& calibration_;
+  const std::vector<Image16>& masks_;
+  WallRaster raster_;
+  std::vector<ProjectorMapping> mappings_;
+  std::vector<LightField> fields_;
+  std::vector<ImageF> corrected_;
+  CommonGamut gamut_;
+  std::vector<ProjectorLightMaps> maps_;
+  std::optional<BlackTarget> black_;
+};
+
+}  // namespace
+
+LightResult matchLight(const Wall& wall, const Calibration& calibration, Method method,
+                       const std::vector<Image16>& masks, const std::vector<double>& leak, Photographs& source,
+                       Progress& progress) {
+  LightMatcher matcher(wall, calibration, masks);
+  matcher.photograph(method, source, progress);
+  try {
+    return matcher.match(leak);
+  } catch (const LightError& error) {
+    throw ProcedureError(std::string("gamma: ") + error.what());
+  } catch (const EstimateError& error) {
+    throw ProcedureError(std::string("gamma: ") + error.what());
+  }
+}
+
+}  // namespace pixelflex::calib
