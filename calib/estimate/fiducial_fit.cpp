@@ -45,7 +45,7 @@ class MarkerProblem {
   MarkerProblem(const MarkerModules& modules, std::vector<MarkerSample> samples, glm::dvec2 middle)
       : marker_(modules), samples_(std::move(samples)), middle_(middle) {}
 
-  [[nodiscard]] bool enough() const { return samples_.size() > 3 * kParameters; }
+  [[nodiscard]] bool enough() const { return samples_.size() > std::size_t{3} * kParameters; }
 
   static std::array<glm::dvec2, 4> cornersOf(const Parameters& p) {
     return {glm::dvec2(p[0], p[1]), glm::dvec2(p[2], p[3]), glm::dvec2(p[4], p[5]), glm::dvec2(p[6], p[7])};

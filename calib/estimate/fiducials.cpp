@@ -96,8 +96,9 @@ class MarkerSearch {
   [[nodiscard]] MarkerModules modulesOf(int id) const {
     const cv::Mat bits = cv::aruco::Dictionary::getBitsFromByteList(dictionary_->bytesList.rowRange(id, id + 1), 4);
     MarkerModules modules{};
+    std::size_t next = 0;
     for (int y = 0; y < 4; ++y) {
-      for (int x = 0; x < 4; ++x) modules[static_cast<std::size_t>(4 * y + x)] = bits.at<std::uint8_t>(y, x) != 0;
+      for (int x = 0; x < 4; ++x) modules[next++] = bits.at<std::uint8_t>(y, x) != 0;
     }
     return modules;
   }

@@ -149,29 +149,30 @@ class BlobCheck {
   /// An outer row or column of blobs.
   struct Side {
     std::string name;
-    int first;
+    int first;  // blob's id
+    int last;
     int step;
   };
   static constexpr int kFewestAlong = 2;
 
   [[nodiscard]] static const std::array<Side, 4>& sides() {
-    static const std::array<Side, 4> kSides = {Side{"top", 1, 1}, Side{"bottom", kBlobCount - kBlobColumns + 1, 1},
-                                               Side{"left side", 1, kBlobColumns},
-                                               Side{"right side", kBlobColumns, kBlobColumns}};
+    static const std::array<Side, 4> kSides = {Side{"top", 1, kBlobColumns, 1},
+                                               Side{"bottom", kBlobCount - kBlobColumns + 1, kBlobCount, 1},
+                                               Side{"left side", 1, kBlobCount - kBlobColumns + 1, kBlobColumns},
+                                               Side{"right side", kBlobColumns, kBlobCount, kBlobColumns}};
     static_assert(kBlobColumns == kBlobRows);
     return kSides;
   }
   [[nodiscard]] int seenAlong(const Side& side) const {
     int count = 0;
-    for (int i = 0; i < kBlobColumns; ++i)
-      count += present_[static_cast<std::size_t>(side.first + i * side.step)] ? 1 : 0;
+    for (int id = side.first; id <= side.last; id += side.step) count += present_[static_cast<std::size_t>(id)] ? 1 : 0;
     return count;
   }
   [[nodiscard]] int litAlong(const Side& side) const {
     if (evidence_.grid.spots.size() < 8) return 0;
     int count = 0;
-    for (int i = 0; i < kBlobColumns; ++i) {
-      const glm::dvec2 raw = expectedInRaw(side.first + i * side.step);
+    for (int id = side.first; id <= side.last; id += side.step) {
+      const glm::dvec2 raw = expectedInRaw(id);
       const bool inside = raw.x >= 0 && raw.y >= 0 && raw.x < evidence_.photo.width && raw.y < evidence_.photo.height;
       if (inside && evidence_.frame.mask.at(static_cast<int>(raw.x), static_cast<int>(raw.y)) != 0) ++count;
     }

@@ -62,10 +62,12 @@ class EdgeSearch {
   /// The line of blobs that ends at `last`; `inwards` leads from one of its blobs to the next.
   void search(std::size_t side, int last, int inwards) {
     std::array<glm::dvec2, 4> nodes{};
-    for (int i = 0; i < 4; ++i) {
-      const auto& point = pointsInRaw_[static_cast<std::size_t>(last + i * inwards)];
+    int index = last;
+    for (auto& node : nodes) {
+      const auto& point = pointsInRaw_[static_cast<std::size_t>(index)];
       if (!point) return;
-      nodes[static_cast<std::size_t>(i)] = *point;
+      node = *point;
+      index += inwards;
     }
     const glm::dvec2 centre = layout_.centre(last + 1);
     const double spacing = glm::length(layout_.centre(last + inwards + 1) - centre);
@@ -79,20 +81,22 @@ class EdgeSearch {
 
   /// Around `edge` by `reach` to each side, both along the line.
   [[nodiscard]] std::optional<Crossing> cross(const Line& line, double edge, double reach) const {
-    constexpr int kSteps = 60;  // to each side
+    constexpr std::size_t kSteps = 60;  // to each side
+    constexpr std::size_t kInner = 20;  // of these tell how bright the frame is
     const glm::dvec2 expected = line.at(edge);
     std::array<double, 2 * kSteps + 1> light{};
     std::array<double, 2 * kSteps + 1> at{};
-    for (int i = -kSteps; i <= kSteps; ++i) {
-      const glm::dvec2 raw = line.at(edge + reach * i / kSteps);
+    for (std::size_t i = 0; i < light.size(); ++i) {
+      const double beyond = static_cast<double>(i) / kSteps - 1;  // in parts of the reach
+      const glm::dvec2 raw = line.at(edge + reach * beyond);
       if (raw.x < 1 || raw.y < 1 || raw.x > frame_.range.width() - 1.0 || raw.y > frame_.range.height() - 1.0) {
         return std::nullopt;
       }
-      light[static_cast<std::size_t>(i + kSteps)] = sample(raw);
-      at[static_cast<std::size_t>(i + kSteps)] = std::copysign(glm::length(raw - expected), i);
+      light[i] = sample(raw);
+      at[i] = std::copysign(glm::length(raw - expected), beyond);
     }
     double inside = 0;
-    for (std::size_t i = 0; i < kSteps / 3; ++i) inside += light[i] / (kSteps / 3);
+    for (std::size_t i = 0; i < kInner; ++i) inside += light[i] / kInner;
     if (inside < 0.4 * frame_.level) return std::nullopt;  // something dark stands here
     const auto place = [&](double share) {
       for (std::size_t i = 1; i < light.size(); ++i) {

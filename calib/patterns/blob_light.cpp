@@ -215,10 +215,10 @@ double meanAround(const ImageF& light, glm::dvec2 pointInRaw, int reach) {
 }
 
 std::string placeInPhoto(glm::dvec2 pointInRaw, devices::Size photo) {
-  const auto third = [](double at, int length) { return std::clamp(static_cast<int>(3 * at / length), 0, 2); };
+  const auto third = [](double at, int length) { return std::size_t(std::clamp(3 * at / length, 0.0, 2.9)); };
   const std::array<const char*, 9> names = {"upper left", "upper middle", "upper right",  "left",       "middle",
                                             "right",      "lower left",   "lower middle", "lower right"};
-  return names[static_cast<std::size_t>(3 * third(pointInRaw.y, photo.height) + third(pointInRaw.x, photo.width))];
+  return names[3 * third(pointInRaw.y, photo.height) + third(pointInRaw.x, photo.width)];
 }
 
 }  // namespace pixelflex::calib
