@@ -50,9 +50,10 @@ Case plainCase() {
 void addColour(Case& one) {
   // Rows; some colours become negative, others brighter than white.
   one.job.colour = {1.1, -0.2, 0.05, -0.1, 0.9, 0.08, 0.02, -0.15, 0.8};
+  std::size_t next = 0;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
-      one.plan.colour[column][row] = static_cast<float>(one.job.colour[static_cast<std::size_t>(3 * row + column)]);
+      one.plan.colour[column][row] = static_cast<float>(one.job.colour.at(next++));
     }
   }
 }
@@ -270,9 +271,11 @@ TEST_F(LightTest, ThePointerLooksTheSameInBothDomains) {
   auto& renderer = draw({inCodes, inLight}, grey);
   const auto bare = renderer.readOutput(1);
   Image8 arrow({40, 40}, 4);
-  for (int i = 0; i < 40 * 40; ++i) {
-    arrow.samples()[static_cast<std::size_t>(4 * i)] = 200;
-    arrow.samples()[static_cast<std::size_t>(4 * i + 3)] = static_cast<std::uint8_t>(i % 256);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      arrow.at(x, y, 0) = 200;
+      arrow.at(x, y, 3) = static_cast<std::uint8_t>((40 * y + x) % 256);
+    }
   }
   renderer.setCursor(arrow, {0, 0});
   renderer.moveCursor({150, 120});

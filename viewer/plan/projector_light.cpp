@@ -38,10 +38,9 @@ std::array<std::vector<float>, 3> readResponse(const std::filesystem::path& fold
 
 glm::mat3 matrixOf(const std::array<double, 9>& rowMajor) {
   glm::mat3 matrix;
+  std::size_t next = 0;
   for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      matrix[column][row] = static_cast<float>(rowMajor[static_cast<std::size_t>(3 * row + column)]);
-    }
+    for (int column = 0; column < 3; ++column) matrix[column][row] = static_cast<float>(rowMajor.at(next++));
   }
   return matrix;
 }

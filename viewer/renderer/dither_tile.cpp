@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <random>
 #include <vector>
 
@@ -24,8 +25,8 @@ class Points {
  public:
   Points() {
     constexpr double kSigma = 1.5;
-    for (int i = -kReach; i <= kReach; ++i) {
-      weights_[static_cast<std::size_t>(i + kReach)] = static_cast<float>(std::exp(-i * i / (2 * kSigma * kSigma)));
+    for (int i = 0; i <= kReach; ++i) {
+      weights_[static_cast<std::size_t>(i)] = static_cast<float>(std::exp(-i * i / (2 * kSigma * kSigma)));
     }
   }
 
@@ -34,9 +35,9 @@ class Points {
     const int x = static_cast<int>(cell % kExtent);
     const int y = static_cast<int>(cell / kExtent);
     for (int dy = -kReach; dy <= kReach; ++dy) {
-      const float row = (present ? 1.0F : -1.0F) * weights_[static_cast<std::size_t>(dy + kReach)];
+      const float row = (present ? 1.0F : -1.0F) * weightAt(dy);
       for (int dx = -kReach; dx <= kReach; ++dx) {
-        crowd_[cellAt(x + dx, y + dy)] += row * weights_[static_cast<std::size_t>(dx + kReach)];
+        crowd_[cellAt(x + dx, y + dy)] += row * weightAt(dx);
       }
     }
   }
@@ -55,6 +56,8 @@ class Points {
  private:
   static constexpr int kReach = 9;
 
+  [[nodiscard]] float weightAt(int distance) const { return weights_[static_cast<std::size_t>(std::abs(distance))]; }
+
   template <class Better>
   [[nodiscard]] std::size_t bestOf(bool taken, Better better) const {
     std::size_t best = kCells;
@@ -64,7 +67,7 @@ class Points {
     return best;
   }
 
-  std::array<float, 2 * kReach + 1> weights_{};
+  std::array<float, kReach + 1> weights_{};  // by distance
   std::vector<bool> taken_ = std::vector<bool>(kCells, false);
   std::vector<float> crowd_ = std::vector<float>(kCells, 0.0F);
 };
