@@ -4,7 +4,8 @@ target_link_libraries(pixelflex_reference PRIVATE pixelflex_options PUBLIC pixel
 
 pixelflex_test(renderer_exact_test LABEL gl SOURCES gl/exact_test.cpp LINK pixelflex_renderer pixelflex_reference)
 pixelflex_test(renderer_warp_test LABEL gl SOURCES gl/warp_test.cpp LINK pixelflex_renderer pixelflex_reference)
-pixelflex_test(renderer_coverage_test LABEL gl SOURCES gl/coverage_test.cpp gl/mesh_count.cpp gl/mesh_count.h
+pixelflex_test(renderer_coverage_test LABEL gl SOURCES
+    gl/coverage_test.cpp gl/plan_drawing_test.cpp gl/bent_frames.cpp gl/bent_frames.h gl/mesh_count.cpp gl/mesh_count.h
   LINK pixelflex_plan pixelflex_reference PkgConfig::EPOXY)
 pixelflex_test(renderer_damage_test LABEL gl SOURCES gl/damage_test.cpp LINK pixelflex_renderer pixelflex_reference)
 pixelflex_test(renderer_light_test LABEL gl SOURCES gl/light_test.cpp gl/dither_test.cpp

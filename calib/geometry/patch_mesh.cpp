@@ -41,6 +41,10 @@ using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Fast, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
                                                CGAL::Exact_predicates_tag>;
 
+using Vertex = Triangulation::Vertex_handle;
+
+constexpr int kMostHalvings = 3;  // of the distance between vertices
+
 /// Doubles with an order, for finding a point again that two patches share to the last bit.
 using PointKey = std::pair<double, double>;
 
@@ -48,15 +52,7 @@ class MeshBuilder {
  public:
   MeshBuilder(const ProjectorMapping& mapping, const Display& display, std::span<const DesktopPatch> patches,
               double spacing)
-      : mapping_(mapping),
-        display_(display),
-        patches_(patches),
-        spacing_(spacing),
-        desktopFromWall_(desktopFromWall(display)),
-        wallFromDesktop_(desktopFromWall_.inverse()),
-        flatDesktopFromProjector_(desktopFromWall_ * mapping.flatWallFromProjector()),
-        weightInMiddle_(
-            flatDesktopFromProjector_.weight({mapping.resolution().width / 2.0, mapping.resolution().height / 2.0})) {}
+      : mapping_(mapping), display_(display), patches_(patches), spacing_(spacing), view_(mapping, display) {}
 
   PatchMesh build() {
     traceOutline();
@@ -75,8 +71,9 @@ class MeshBuilder {
     const double h = mapping_.resolution().height;
     const std::array<glm::dvec2, 4> corners = {{{0, 0}, {w, 0}, {w, h}, {0, h}}};
     const Outline outline = footprint(mapping_);
+    const Homography desktopOf = desktopFromWall(display_);
     for (std::size_t i = 0; i < outline.size(); ++i) {
-      const glm::dvec2 inDesktop = desktopFromWall_.map(outline[i]);
+      const glm::dvec2 inDesktop = desktopOf.map(outline[i]);
       const std::size_t edge = i / kOutlinePointsPerEdge;
       const double along = double(i % kOutlinePointsPerEdge) / kOutlinePointsPerEdge;
       projectorOf_[{inDesktop.x, inDesktop.y}] = corners[edge] + (corners[(edge + 1) % 4] - corners[edge]) * along;
@@ -111,24 +108,48 @@ class MeshBuilder {
   void insertEdge(const Exact::Segment_2& edge, const DesktopPatch& patch) {
     const glm::dvec2 from = pointOf(edge.source());
     const glm::dvec2 to = pointOf(edge.target());
-    std::vector<glm::dvec2> chain{from};
     const bool vertical = from.x == to.x && (from.x == patch.left || from.x == patch.right);
     const bool horizontal = from.y == to.y && (from.y == patch.top || from.y == patch.bottom);
-    if (vertical || horizontal) {
-      const int axis = vertical ? 1 : 0;
-      for (const double stop : stopsBetween(from[axis], to[axis])) {
-        glm::dvec2 point = from;
-        point[axis] = stop;
-        chain.push_back(point);
-      }
+    if (!vertical && !horizontal) return insertFrameEdge(insertVertex(from), insertVertex(to), 0);
+    const int axis = vertical ? 1 : 0;
+    auto last = insertVertex(from);
+    for (const double stop : stopsBetween(from[axis], to[axis])) {
+      glm::dvec2 point = from;
+      point[axis] = stop;
+      const auto next = insertVertex(point);
+      insertPatchEdge(last, next, 0);
+      last = next;
     }
-    chain.push_back(to);
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-      const auto a = insertVertex(chain[i]);
-      const auto b = insertVertex(chain[i + 1]);
-      if (a != b) triangulation_.insert_constraint(a, b);
-    }
+    insertPatchEdge(last, insertVertex(to), 0);
   }
+
+  /// Halved, at the same places from both sides, until its chord follows the curve.
+  void insertPatchEdge(Vertex from, Vertex to, int halvings) {
+    if (from == to) return;
+    if (halvings == kMostHalvings || view_.followsOnDesktop(named(from), named(to))) {
+      triangulation_.insert_constraint(from, to);
+      return;
+    }
+    const auto between = insertVertex((named(from).pointInDesktop + named(to).pointInDesktop) / 2.0);
+    insertPatchEdge(from, between, halvings + 1);
+    insertPatchEdge(between, to, halvings + 1);
+  }
+
+  /// Of the frame's border: straight in projector space, so halved there.
+  void insertFrameEdge(Vertex from, Vertex to, int halvings) {
+    if (from == to) return;
+    const glm::dvec2 middle = (named(from).pointInProjector + named(to).pointInProjector) / 2.0;
+    const auto inDesktop = view_.desktopFromProjector(middle);
+    if (halvings == kMostHalvings || !inDesktop || view_.followsInFrame(named(from), named(to))) {
+      triangulation_.insert_constraint(from, to);
+      return;
+    }
+    const auto between = insertPoint(middle, *inDesktop);
+    insertFrameEdge(from, between, halvings + 1);
+    insertFrameEdge(between, to, halvings + 1);
+  }
+
+  [[nodiscard]] MeshVertex named(const Vertex& handle) const { return mesh_.vertices[handle->info().index]; }
 
   [[nodiscard]] static std::vector<double> stopsBetween(double from, double to) {
     constexpr double kStep = 16;  // desktop pixels
@@ -141,41 +162,21 @@ class MeshBuilder {
     return stops;
   }
 
-  Triangulation::Vertex_handle insertVertex(glm::dvec2 pointInDesktop) {
+  Vertex insertVertex(glm::dvec2 pointInDesktop) {
     const PointKey key{pointInDesktop.x, pointInDesktop.y};
     if (const auto known = handleOf_.find(key); known != handleOf_.end()) return known->second;
-    const glm::dvec2 inProjector = projectorPoint(pointInDesktop);
+    const auto onFrame = projectorOf_.find(key);
+    const glm::dvec2 inProjector =
+        onFrame != projectorOf_.end() ? onFrame->second : view_.projectorFromDesktop(pointInDesktop);
     const auto handle = triangulation_.insert({inProjector.x, inProjector.y});
     if (handle->info().index == kNoVertex) nameVertex(handle, inProjector, pointInDesktop);
     handleOf_[key] = handle;
     return handle;
   }
 
-  void nameVertex(const Triangulation::Vertex_handle& handle, glm::dvec2 inProjector, glm::dvec2 inDesktop) {
+  void nameVertex(const Vertex& handle, glm::dvec2 inProjector, glm::dvec2 inDesktop) {
     handle->info().index = static_cast<std::uint32_t>(mesh_.vertices.size());
-    // Projective interpolation is exact for a homography when the weight is its third coordinate.
-    const double weight = flatDesktopFromProjector_.weight(inProjector) / weightInMiddle_;
-    mesh_.vertices.push_back({inProjector, inDesktop, weight});
-  }
-
-  [[nodiscard]] glm::dvec2 projectorPoint(glm::dvec2 pointInDesktop) const {
-    if (const auto known = projectorOf_.find({pointInDesktop.x, pointInDesktop.y}); known != projectorOf_.end()) {
-      return known->second;
-    }
-    const auto point = mapping_.projectorFromWall(wallFromDesktop_.map(pointInDesktop));
-    if (!point) throw GeometryError("a point of the display falls outside the projector's lens model");
-    return snapToFrame(*point);
-  }
-
-  /// Crossings of patch and footprint lie on the frame's border up to the outline's chords: put them on it.
-  [[nodiscard]] glm::dvec2 snapToFrame(glm::dvec2 point) const {
-    constexpr double kChordError = 0.05;  // projector pixels
-    const glm::dvec2 corner(mapping_.resolution().width, mapping_.resolution().height);
-    for (int axis = 0; axis < 2; ++axis) {
-      if (point[axis] < kChordError) point[axis] = 0;
-      if (point[axis] > corner[axis] - kChordError) point[axis] = corner[axis];
-    }
-    return point;
+    mesh_.vertices.push_back(view_.vertex(inProjector, inDesktop));
   }
 
   void fillInterior() {
@@ -183,24 +184,51 @@ class MeshBuilder {
     const double h = mapping_.resolution().height;
     const int columns = std::max(1, static_cast<int>(std::lround(w / spacing_)));
     const int rows = std::max(1, static_cast<int>(std::lround(h / spacing_)));
-    Triangulation::Face_handle near;
-    for (int row = 1; row < rows; ++row) {
-      for (int column = 1; column < columns; ++column) {
-        const glm::dvec2 inProjector{column * w / columns, row * h / rows};
-        const auto inWall = mapping_.wallFromProjector(inProjector);
-        if (!inWall) continue;
-        const glm::dvec2 inDesktop = desktopFromWall_.map(*inWall);
-        if (!insideDisplay(inDesktop, 0.25)) continue;
-        const auto handle = triangulation_.insert({inProjector.x, inProjector.y}, near);
-        near = handle->face();
-        if (handle->info().index == kNoVertex) nameVertex(handle, inProjector, inDesktop);
+    const glm::dvec2 size(w / columns, h / rows);
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        const glm::dvec2 low = size * glm::dvec2(column, row);
+        if (row > 0 && column > 0) insertInterior(low);
+        refineCell(low, size, 0);
       }
     }
   }
 
-  [[nodiscard]] bool insideDisplay(glm::dvec2 p, double clearance) const {
-    return p.x > clearance && p.y > clearance && p.x < display_.resolution.width - clearance &&
-           p.y < display_.resolution.height - clearance;
+  /// Quarters a cell of the lattice until the model is straight within it. Points that neighbours share are found
+  /// again.
+  void refineCell(glm::dvec2 low, glm::dvec2 size, int halvings) {
+    if (halvings == kMostHalvings || view_.followsInCell(low, size)) return;
+    const glm::dvec2 half = size / 2.0;
+    for (const glm::dvec2 place :
+         {glm::dvec2(1, 1), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(2, 1), glm::dvec2(1, 2)}) {
+      insertInterior(low + half * place);
+    }
+    for (const glm::dvec2 quarter : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)}) {
+      refineCell(low + half * quarter, half, halvings + 1);
+    }
+  }
+
+  void insertInterior(glm::dvec2 inProjector) {
+    const bool insideFrame = inProjector.x > 0 && inProjector.y > 0 && inProjector.x < mapping_.resolution().width &&
+                             inProjector.y < mapping_.resolution().height;
+    const auto inDesktop = view_.desktopFromProjector(inProjector);
+    if (insideFrame && inDesktop && clearOfBorders(*inDesktop)) near_ = insertPoint(inProjector, *inDesktop)->face();
+  }
+
+  /// Inside a patch, and not so near to its border that a sliver would come between.
+  [[nodiscard]] bool clearOfBorders(glm::dvec2 p) const {
+    constexpr double kClearance = 1;  // desktop pixels
+    const auto index = patchAt(p);
+    if (!index) return false;
+    const DesktopPatch& patch = patches_[*index];
+    return p.x > patch.left + kClearance && p.y > patch.top + kClearance && p.x < patch.right - kClearance &&
+           p.y < patch.bottom - kClearance;
+  }
+
+  Vertex insertPoint(glm::dvec2 inProjector, glm::dvec2 inDesktop) {
+    const auto handle = triangulation_.insert({inProjector.x, inProjector.y}, near_);
+    if (handle->info().index == kNoVertex) nameVertex(handle, inProjector, inDesktop);
+    return handle;
   }
 
   /// Where two constraints cross, the triangulation made a point of its own.
@@ -208,9 +236,9 @@ class MeshBuilder {
     for (auto vertex : triangulation_.finite_vertex_handles()) {
       if (vertex->info().index != kNoVertex) continue;
       const glm::dvec2 inProjector{vertex->point().x(), vertex->point().y()};
-      const auto inWall = mapping_.wallFromProjector(inProjector);
-      if (!inWall) throw GeometryError("a mesh point falls outside the projector's lens model");
-      nameVertex(vertex, inProjector, desktopFromWall_.map(*inWall));
+      const auto inDesktop = view_.desktopFromProjector(inProjector);
+      if (!inDesktop) throw GeometryError("a mesh point falls outside the projector's lens model");
+      nameVertex(vertex, inProjector, *inDesktop);
     }
   }
 
@@ -299,25 +327,17 @@ class MeshBuilder {
   const Display& display_;
   std::span<const DesktopPatch> patches_;
   double spacing_;
-  Homography desktopFromWall_;
-  Homography wallFromDesktop_;
-  Homography flatDesktopFromProjector_;
-  double weightInMiddle_;
+  DesktopView view_;
   ExactPolygon outline_;
   std::map<PointKey, glm::dvec2> projectorOf_;
-  std::map<PointKey, Triangulation::Vertex_handle> handleOf_;
+  std::map<PointKey, Vertex> handleOf_;
   Triangulation triangulation_;
+  Triangulation::Face_handle near_;  // where the last point went in
   int componentCount_ = 0;
   PatchMesh mesh_;
 };
 
 }  // namespace
-
-Homography desktopFromWall(const Display& display) {
-  const glm::dvec2 scale{display.resolution.width / (display.right - display.left),
-                         display.resolution.height / (display.bottom - display.top)};
-  return Homography::scaling(scale) * Homography::translation({-display.left, -display.top});
-}
 
 PatchMesh buildPatchMesh(const ProjectorMapping& mapping, const Display& display, std::span<const DesktopPatch> patches,
                          double spacing) {

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 #include <set>
+#include <span>
 
 #include "calib/geometry/patch_mesh.h"
 
@@ -105,26 +107,59 @@ TEST_F(PatchMeshTest, KeepsEveryTriangleInsideItsPatch) {
   }
 }
 
-TEST_F(PatchMeshTest, InterpolatesTheModelToAFewThousandthsOfAPixel) {
-  const Homography desktop = desktopFromWall(kLarger);
-  const PatchMesh mesh = build(kLarger);
+/// The desktop position that a mesh draws at the mean of some corners.
+glm::dvec2 drawnAt(std::span<const MeshVertex> corners) {
+  glm::dvec2 weighted{0, 0};
+  double weight = 0;
+  for (const auto& corner : corners) {
+    weighted += corner.pointInDesktop * corner.weight;
+    weight += corner.weight;
+  }
+  return weighted / weight;
+}
+
+/// The largest error in the middles of triangles and of their edges, desktop pixels.
+double worstError(const PatchMesh& mesh, const ProjectorMapping& mapping, const Display& display) {
   double worst = 0;
+  const auto look = [&](std::span<const MeshVertex> corners) {
+    glm::dvec2 middle{0, 0};
+    for (const auto& corner : corners) middle += corner.pointInProjector / static_cast<double>(corners.size());
+    const auto exact = desktopFromWall(display).map(*mapping.wallFromProjector(middle));
+    worst = std::max(worst, glm::length(drawnAt(corners) - exact));
+  };
   for (const auto& patch : mesh.patches) {
     for (const auto& triangle : patch.triangles) {
-      const auto t = corners(mesh, triangle);
-      if (area(t) < 1) continue;
-      const glm::dvec2 middle = (t[0].pointInProjector + t[1].pointInProjector + t[2].pointInProjector) / 3.0;
-      glm::dvec2 weighted{0, 0};
-      double weight = 0;
-      for (const auto& corner : t) {
-        weighted += corner.pointInDesktop * corner.weight;
-        weight += corner.weight;
-      }
-      const glm::dvec2 exact = desktop.map(*mapping_.wallFromProjector(middle));
-      worst = std::max(worst, glm::length(weighted / weight - exact));
+      const std::array<MeshVertex, 4> t = {mesh.vertices[triangle[0]], mesh.vertices[triangle[1]],
+                                           mesh.vertices[triangle[2]], mesh.vertices[triangle[0]]};
+      look(std::span(t).first(3));
+      for (std::size_t i = 0; i < 3; ++i) look(std::span(t).subspan(i, 2));
     }
   }
-  EXPECT_LT(worst, 0.01);
+  return worst;
+}
+
+TEST_F(PatchMeshTest, InterpolatesTheModelToAHundredthOfAPixel) {
+  EXPECT_LT(worstError(build(kLarger), mapping_, kLarger), 0.01);
+}
+
+TEST_F(PatchMeshTest, IsFinerWhereALensBendsMore) {
+  // A short-throw lens and a large frame, whose outline has a point every 60 pixels.
+  constexpr devices::Size kLargeFrame{3840, 2160};
+  const ProjectorModel wide{.projectorFromWall = {1.0 / 3840, 0, -0.5, 0, 1.0 / 3840, -0.28, 0, 1e-5, 1},
+                            .centre = {1920, 1700},
+                            .scale = 3840,
+                            .radial = {-0.15, 0.02, 0}};
+  const ProjectorMapping mapping(wide, kLargeFrame);
+  const Display display{-1000, -1000, 5500, 4000, {6500, 5000}};
+  const PatchMesh mesh = buildPatchMesh(mapping, display, patchesOf(display.resolution, 1020));
+  EXPECT_LT(worstError(mesh, mapping, display), 0.015);
+  // Without a lens nothing bends: two triangles for each 16 by 16 pixels, and what the borders add.
+  ProjectorModel flat = wide;
+  flat.radial = {};
+  const PatchMesh coarse =
+      buildPatchMesh(ProjectorMapping(flat, kLargeFrame), display, patchesOf(display.resolution, 1020));
+  EXPECT_LT(coarse.vertices.size(), 36000U);
+  EXPECT_GT(mesh.vertices.size(), coarse.vertices.size());
 }
 
 TEST_F(PatchMeshTest, IsEmptyWhenTheProjectorLightsNothingOfTheDisplay) {
