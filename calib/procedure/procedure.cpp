@@ -347,7 +347,7 @@ std::string Procedure::runGamma() {
     if (!gamma) continue;
     const std::string file = (folder_ / *gamma).string();
     projector.response = "calibration/" + projector.name + "-response.csv";
-    responses_[*projector.response] = formatReadings(parseReadings(readStoreFile(file), file));
+    responses_[*projector.response] = formatReadings(withoutNoise(parseReadings(readStoreFile(file), file)));
     ++measured;
   }
   const std::size_t assumed = calibration_.projectors.size() - measured;
