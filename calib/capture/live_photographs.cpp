@@ -3,6 +3,8 @@
 #include <cassert>
 #include <exception>
 
+#include "devices/image/image_error.h"
+#include "devices/image/photo_file.h"
 #include "devices/image/png_file.h"
 
 namespace pixelflex::calib {
@@ -95,12 +97,25 @@ Photographs::Named LivePhotographs::fiducials() {
 devices::Image8 LivePhotographs::pattern(const std::string& projector, const ProjectedPattern& pattern) {
   devices::Projector* target = find(projector);
   if (target == nullptr) throw CaptureError("projector " + projector + " is not connected");
+  const std::filesystem::path relative = patternPath(projector, pattern).string() + ".png";
+  if (const auto taken = taken_.find({place_, relative}); taken != taken_.end()) return readAgain(taken->second);
   if (!dark_ && !person_.arrange(devices::Scene::kDark, 0)) throw CaptureError("the room could not be darkened");
   dark_ = true;
   if (lit_ != target) blankAll();
   lit_ = target;
   target->show(pattern.render());
-  return shoot(patternPath(projector, pattern).string() + ".png").photo;
+  Named shot = shoot(relative);
+  if (captures_) taken_[{place_, relative}] = shot.name;
+  return std::move(shot.photo);
+}
+
+devices::Image8 LivePhotographs::readAgain(const std::filesystem::path& file) {
+  writer_.finish();
+  try {
+    return devices::readPhoto(file);
+  } catch (const devices::ImageError& error) {
+    throw CaptureError(error.what());
+  }
 }
 
 std::string LivePhotographs::stamp(const std::string& kind) const {

@@ -5,6 +5,7 @@
 #include <deque>
 #include <exception>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <stop_token>
@@ -69,11 +70,14 @@ class LivePhotographs : public Photographs {
   [[nodiscard]] devices::Projector* find(const std::string& name) const;
   void blankAll();
   [[nodiscard]] Named shoot(const std::filesystem::path& relative);
+  [[nodiscard]] devices::Image8 readAgain(const std::filesystem::path& file);
 
   devices::Camera& camera_;
   std::vector<devices::Projector*> projectors_;
   devices::Operator& person_;
   std::optional<CaptureFolder> captures_;
+  /// What was photographed already, by place and relative path: asked for again, it is the same photograph.
+  std::map<std::pair<int, std::filesystem::path>, std::filesystem::path> taken_;
   std::string identity_;
   int checkerboardCount_;
   int placeCount_;
