@@ -274,7 +274,7 @@ class MeshBuilder {
   }
 
   [[nodiscard]] double desktopArea(const Triangulation::Face_handle& face) const {
-    std::array<glm::dvec2, 3> p;
+    std::array<glm::dvec2, 3> p{};
     for (int corner = 0; corner < 3; ++corner) {
       p[static_cast<std::size_t>(corner)] = mesh_.vertices[face->vertex(corner)->info().index].pointInDesktop;
     }

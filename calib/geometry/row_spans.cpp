@@ -45,16 +45,16 @@ RowSpans shrink(const RowSpans& row, int margin) {
 }
 
 void intersectWithRowsBelow(std::vector<RowSpans>& rows, int count) {
-  const int height = static_cast<int>(rows.size());
+  const std::size_t height = rows.size();
+  const auto wanted = static_cast<std::size_t>(std::max(count, 1));
   // Each pass doubles the number of rows that a row stands for, or brings it to `count`.
-  for (int done = 1; done < std::min(count, height + 1);) {
-    const int step = std::min(done, count - done);
-    for (int y = 0; y < height; ++y) {
-      RowSpans& row = rows[static_cast<std::size_t>(y)];
+  for (std::size_t done = 1; done < std::min(wanted, height + 1);) {
+    const std::size_t step = std::min(done, wanted - done);
+    for (std::size_t y = 0; y < height; ++y) {
       if (y + step < height) {
-        row = intersect(row, rows[static_cast<std::size_t>(y + step)]);
+        rows[y] = intersect(rows[y], rows[y + step]);
       } else {
-        row.clear();
+        rows[y].clear();
       }
     }
     done += step;

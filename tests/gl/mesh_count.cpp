@@ -47,11 +47,12 @@ devices::GlBuffer bufferOf(std::span<const std::byte> bytes) {
 }
 
 void drawAdding(const viewer::WarpMesh& mesh) {
-  const auto vertices = bufferOf(std::as_bytes(std::span(mesh.vertices)));
-  const auto indices = bufferOf(std::as_bytes(std::span(mesh.indices)));
+  // Unrolled triangle by triangle, as the renderer does it.
+  std::vector<viewer::WarpVertex> corners;
+  for (const auto index : mesh.indices) corners.push_back(mesh.vertices[index]);
+  const auto vertices = bufferOf(std::as_bytes(std::span(corners)));
   const auto array = devices::GlVertexArray::create();
   glVertexArrayVertexBuffer(array.get(), 0, vertices.get(), 0, sizeof(viewer::WarpVertex));
-  glVertexArrayElementBuffer(array.get(), indices.get());
   glEnableVertexArrayAttrib(array.get(), 0);
   glVertexArrayAttribFormat(array.get(), 0, 2, GL_FLOAT, GL_FALSE, offsetof(viewer::WarpVertex, x));
   glVertexArrayAttribBinding(array.get(), 0, 0);
@@ -60,8 +61,7 @@ void drawAdding(const viewer::WarpMesh& mesh) {
   glBlendFunc(GL_ONE, GL_ONE);
   glBlendEquation(GL_FUNC_ADD);
   for (const auto& patch : mesh.patches) {
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(patch.indexCount), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(std::uintptr_t{patch.firstIndex} * sizeof(std::uint32_t)));
+    glDrawArrays(GL_TRIANGLES, static_cast<GLint>(patch.firstIndex), static_cast<GLsizei>(patch.indexCount));
   }
   glDisable(GL_BLEND);
   glBindVertexArray(0);
