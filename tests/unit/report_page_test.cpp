@@ -152,7 +152,8 @@ TEST_F(ReportPage, DenseMeasurementsAreDotsOverTheWhitePhotograph) {
     const glm::dvec2 p(100 + 9 * i, 500.5);
     projector.samples.push_back({p, p});
   }
-  photograph(folder_ / "captures/p1/white.png", plain);
+  projector.quality.found = projector.quality.shown = static_cast<int>(projector.samples.size());
+  photograph(folder_ / "captures/p1/dense-white.png", plain);
   const std::string html = page(folder_.path(), plain);
   EXPECT_EQ(count(html, "<circle"), 0u);
   EXPECT_THAT(html, HasSubstr("class=\"found dot\" d=\"M150.0 100.0h0"));
