@@ -20,8 +20,7 @@ namespace {
 constexpr double kBlobInCamera = 0.03;  // camera pixels
 constexpr double kLens = 0.03;          // projector pixels: how far a lens is from Brown's model
 constexpr double kMarkerInCamera = 0.1;
-constexpr double kHuber = 5;  // standard deviations
-constexpr double kCentrePriorPx = 5000;
+constexpr double kHuber = 5;           // standard deviations
 constexpr double kCameraScale = 1000;  // camera pixels become numbers of order one
 
 /// A homography whose ninth number is 1, of a wall point to camera pixels over kCameraScale.
@@ -67,15 +66,6 @@ struct LensResidual {
     lensPixel(h, flat, radial, tangential, centre, scale, onPlane, residual);
     residual[0] = (residual[0] - shown.x) / kLens;
     residual[1] = (residual[1] - shown.y) / kLens;
-    return true;
-  }
-};
-
-struct CentrePrior {
-  template <class T>
-  bool operator()(const T* centre, T* residual) const {
-    residual[0] = centre[0] / kCentrePriorPx;
-    residual[1] = centre[1] / kCentrePriorPx;
     return true;
   }
 };
@@ -176,7 +166,7 @@ class Adjustment {
           lens.centre.data(), point.data());
     }
     for (auto& lens : lenses_) {
-      ceres_.AddResidualBlock(new ceres::AutoDiffCostFunction<CentrePrior, 2, 2>(new CentrePrior), nullptr,
+      ceres_.AddResidualBlock(new ceres::AutoDiffCostFunction<LensCentrePrior, 2, 2>(new LensCentrePrior), nullptr,
                               lens.centre.data());
     }
   }

@@ -22,4 +22,16 @@ void lensPixel(const T* h, const T* depth, const T* radial, const T* tangential,
   pixel[1] = (dy + cy) * scale;
 }
 
+/// Keeps a lens's centre, which is nearly free, from wandering off where nothing holds it (calibration reference 2).
+/// `centre`: pixels from the frame's middle.
+struct LensCentrePrior {
+  static constexpr double kDeviation = 5000;  // projector pixels
+  template <class T>
+  bool operator()(const T* centre, T* residual) const {
+    residual[0] = centre[0] / kDeviation;
+    residual[1] = centre[1] / kDeviation;
+    return true;
+  }
+};
+
 }  // namespace pixelflex::calib

@@ -16,7 +16,6 @@ namespace pixelflex::calib {
 namespace {
 
 constexpr double kHuberPx = 0.3;
-constexpr double kCentrePriorPx = 5000;
 
 struct SampleResidual {
   glm::dvec3 onScreen;  // normalised
@@ -30,15 +29,6 @@ struct SampleResidual {
     lensPixel(h, depth, radial, tangential, centre, scale, point, residual);
     residual[0] -= inProjector.x;
     residual[1] -= inProjector.y;
-    return true;
-  }
-};
-
-struct CentrePrior {
-  template <class T>
-  bool operator()(const T* centre, T* residual) const {
-    residual[0] = centre[0] / kCentrePriorPx;
-    residual[1] = centre[1] / kCentrePriorPx;
     return true;
   }
 };
@@ -76,7 +66,7 @@ struct LensSolver::System {
   }
 
   void addPrior() {
-    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<CentrePrior, 2, 2>(new CentrePrior), nullptr,
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LensCentrePrior, 2, 2>(new LensCentrePrior), nullptr,
                              unknowns.centre.data());
   }
 

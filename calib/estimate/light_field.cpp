@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "calib/photometric/gamut.h"
+
 namespace pixelflex::calib {
 namespace {
 
@@ -14,7 +16,6 @@ using devices::ImageF;
 constexpr int kPerCell = 4;         // samples of a cell, both ways
 constexpr double kClearOfEdge = 4;  // projector pixels: nearer to the border blur mixes in the dark
 constexpr std::uint8_t kSaturated = 250;
-constexpr std::array<double, 3> kLuminance = {0.2126, 0.7152, 0.0722};
 
 using Colour = std::array<double, 3>;
 
@@ -127,7 +128,7 @@ std::vector<SeenLight> samplesOf(const LightField& field, std::size_t projector,
     const int x = static_cast<int>(node % static_cast<std::size_t>(field.light.width()));
     const int y = static_cast<int>(node / static_cast<std::size_t>(field.light.width()));
     double light = 0;
-    for (int c = 0; c < 3; ++c) light += kLuminance[static_cast<std::size_t>(c)] * field.light.at(x, y, c);
+    for (int c = 0; c < 3; ++c) light += kCameraLuminance[static_cast<std::size_t>(c)] * field.light.at(x, y, c);
     const glm::dvec2 f = field.inFrame(node);
     const double density = mapping.density({f.x * size.width, f.y * size.height});
     if (light > 0) samples.push_back({projector, field.inCamera[node], f, light, density});

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
+#include <utility>
 
 #include "calib/estimate/light_field.h"
 #include "calib/photometric/black_lift.h"
@@ -10,6 +10,7 @@
 #include "calib/photometric/light_error.h"
 #include "calib/photometric/luminance_target.h"
 #include "calib/procedure/procedure_error.h"
+#include "calib/procedure/white_photographs.h"
 
 namespace pixelflex::calib {
 namespace {
@@ -20,11 +21,6 @@ using devices::ImageF;
 constexpr int kNodesAcross = 96;     // of a projector's light field and gain map
 constexpr int kRasterAcross = 480;   // of the display
 constexpr double kViewDegrees = 60;  // the display's width as the audience sees it from a usual place
-
-devices::Size latticeOf(devices::Size resolution) {
-  return {kNodesAcross,
-          std::max(2, static_cast<int>(std::lround(double(kNodesAcross) * resolution.height / resolution.width)))};
-}
 
 WallRaster rasterOf(const Display& display) {
   const double pitch = (display.right - display.left) / kRasterAcross;
@@ -69,31 +65,14 @@ Matrix3 primariesOf(const ImageF& field) {
 
 class LightMatcher {
  public:
-  LightMatcher(const Wall& wall, const Calibration& calibration, const std::vector<Image16>& masks)
-      : wall_(wall), calibration_(calibration), masks_(masks), raster_(rasterOf(*calibration.display)) {
+  LightMatcher(const Wall& wall, const Calibration& calibration, const std::vector<Image16>& masks,
+               std::vector<LightField> fields)
+      : wall_(wall),
+        calibration_(calibration),
+        masks_(masks),
+        raster_(rasterOf(*calibration.display)),
+        fields_(std::move(fields)) {
     for (const auto& projector : calibration.projectors) mappings_.emplace_back(projector);
-  }
-
-  void photograph(Method method, Photographs& source, Progress& progress) {
-    const CameraMapping camera(*calibration_.camera);
-    fields_.resize(mappings_.size());
-    std::vector<SurfaceFit> surfaces = {*calibration_.surface};
-    surfaces.insert(surfaces.end(), calibration_.places.begin(), calibration_.places.end());
-    int done = 0;
-    for (std::size_t i = 0; i < mappings_.size(); ++i) {
-      const auto& projector = calibration_.projectors[i];
-      const int place = placeOf(projector.name, source);
-      const auto patterns = patternsOf(method, projector.resolution);
-      const auto black = source.pattern(projector.name, patterns[0]);
-      const auto white = source.pattern(projector.name, patterns[1]);
-      if (black.size() != calibration_.camera->size || white.size() != black.size()) {
-        throw ProcedureError(patternPath(projector.name, patterns[1]).string() +
-                             ": not of the size that the camera was calibrated at");
-      }
-      fields_[i] = measureLight(black, white, mappings_[i], ScreenView(surfaces.at(static_cast<std::size_t>(place))),
-                                camera, latticeOf(projector.resolution));
-      progress.advance(++done, static_cast<int>(mappings_.size()), projector.name + " white");
-    }
   }
 
   LightResult match(const std::vector<double>& leak) {
@@ -114,15 +93,6 @@ class LightMatcher {
   }
 
  private:
-  /// The first place from which the projector is seen.
-  static int placeOf(const std::string& name, Photographs& source) {
-    for (int place = 0; place < source.placeCount(); ++place) {
-      source.choosePlace(place);
-      if (source.hasProjector(name)) return place;
-    }
-    throw ProcedureError("projector " + name + ": no photograph of its white; the light cannot be matched without it");
-  }
-
   void divideVignetting() {
     std::vector<SeenLight> samples;
     for (std::size_t i = 0; i < fields_.size(); ++i) {
@@ -183,8 +153,7 @@ class LightMatcher {
     LightMatch match;
     match.colour = gamut_.projectors[i].colour;
     match.gain = "calibration/" + name + "-gain.png";
-    result.images[*match.gain] =
-        gainMap(mappings_[i], maps_[i].white, target.target, raster_, latticeOf(mappings_[i].resolution()));
+    result.images[*match.gain] = gainMap(mappings_[i], maps_[i].white, target.target, raster_, fields_[i].light.size());
     if (black_) {
       match.black = "calibration/" + name + "-black.png";
       result.images[*match.black] = blackLiftMap(i, mappings_, maps_, *black_, raster_, masks_[i]);
@@ -196,8 +165,8 @@ class LightMatcher {
   const Calibration& calibration_;
   const std::vector<Image16>& masks_;
   WallRaster raster_;
-  std::vector<ProjectorMapping> mappings_;
   std::vector<LightField> fields_;
+  std::vector<ProjectorMapping> mappings_;
   std::vector<ImageF> corrected_;
   CommonGamut gamut_;
   std::vector<ProjectorLightMaps> maps_;
@@ -209,8 +178,7 @@ class LightMatcher {
 LightResult matchLight(const Wall& wall, const Calibration& calibration, Method method,
                        const std::vector<Image16>& masks, const std::vector<double>& leak, Photographs& source,
                        Progress& progress) {
-  LightMatcher matcher(wall, calibration, masks);
-  matcher.photograph(method, source, progress);
+  LightMatcher matcher(wall, calibration, masks, photographWhite(calibration, method, kNodesAcross, source, progress));
   try {
     return matcher.match(leak);
   } catch (const LightError& error) {

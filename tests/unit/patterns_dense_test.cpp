@@ -192,16 +192,19 @@ void expectTrue(const DenseSamples& decoded) {
   EXPECT_LT(errorsOf(sharedShoot().wall, sharedShoot().camera, decoded.samples).max, 0.5);
 }
 
-TEST(DenseDecoder, APersonInFrontCostsOnlyWhatTheyHide) {
-  const DenseSamples decoded = decodeSpoiled([](std::vector<Image8>& photos) {
-    for (auto& photo : photos) {
-      for (int y = 200; y < photo.height(); ++y) {
-        for (int x = 250; x < 330; ++x) {
-          for (int c = 0; c < 3; ++c) photo.at(x, y, c) = 12;
-        }
+/// Something dark before the wall, in these columns of every photograph from this row down.
+void standBefore(std::vector<Image8>& photos, int left, int right, int top) {
+  for (auto& photo : photos) {
+    for (int y = top; y < photo.height(); ++y) {
+      for (int x = left; x < right; ++x) {
+        for (int c = 0; c < 3; ++c) photo.at(x, y, c) = 12;
       }
     }
-  });
+  }
+}
+
+TEST(DenseDecoder, APersonInFrontCostsOnlyWhatTheyHide) {
+  const DenseSamples decoded = decodeSpoiled([](auto& photos) { standBefore(photos, 250, 330, 200); });
   EXPECT_GT(decoded.samples.size(), decoded.shown * 0.6);
   EXPECT_LT(decoded.samples.size(), decoded.shown * 0.95);
   EXPECT_THAT(decoded.hint, testing::HasSubstr("hidden"));
@@ -209,15 +212,7 @@ TEST(DenseDecoder, APersonInFrontCostsOnlyWhatTheyHide) {
 }
 
 TEST(DenseDecoder, SomethingAcrossTheFrameDoesNotCostTheFartherHalf) {
-  const DenseSamples decoded = decodeSpoiled([](std::vector<Image8>& photos) {
-    for (auto& photo : photos) {
-      for (int y = 0; y < photo.height(); ++y) {
-        for (int x = 260; x < 290; ++x) {
-          for (int c = 0; c < 3; ++c) photo.at(x, y, c) = 12;
-        }
-      }
-    }
-  });
+  const DenseSamples decoded = decodeSpoiled([](auto& photos) { standBefore(photos, 260, 290, 0); });
   EXPECT_GT(decoded.samples.size(), decoded.shown * 0.8);
   expectTrue(decoded);
 }
