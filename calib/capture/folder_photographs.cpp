@@ -84,6 +84,12 @@ std::optional<Photographs::Named> FolderPhotographs::nextCheckerboard() {
   return Named{next.file.string(), read(next.file, next.relative)};
 }
 
+std::string FolderPhotographs::checkerboardPlace() const {
+  std::string text;
+  for (const auto& folder : common_) text += (text.empty() ? "" : ", ") + (folder / "checkerboard").string();
+  return text + " (.png or .jpg)";
+}
+
 std::optional<Method> FolderPhotographs::methodTaken() {
   std::set<Method> taken;
   for (const auto& place : places_) {

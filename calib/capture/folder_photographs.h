@@ -22,6 +22,7 @@ class FolderPhotographs : public Photographs {
   [[nodiscard]] std::optional<CameraIntrinsics> knownCamera() override;
   [[nodiscard]] std::optional<Named> nextCheckerboard() override;
   [[nodiscard]] int checkerboardCount() const override { return static_cast<int>(checkerboards_.size()); }
+  [[nodiscard]] std::string checkerboardPlace() const override;
   [[nodiscard]] std::optional<Method> methodTaken() override;
   [[nodiscard]] std::optional<BlobSize> blobSizeTaken(const std::string& projector) override;
   [[nodiscard]] bool hasFiducials() override;

@@ -44,6 +44,8 @@ class Photographs {
   [[nodiscard]] virtual std::optional<Named> nextCheckerboard() = 0;
   /// How many of them there will be, for progress; 0 when unknown.
   [[nodiscard]] virtual int checkerboardCount() const = 0;
+  /// Where they come from, for the message that there are none.
+  [[nodiscard]] virtual std::string checkerboardPlace() const { return "the camera"; }
 
   /// Whether the wall in room light was photographed from this place; of several places some may see no marker.
   [[nodiscard]] virtual bool hasFiducials() { return true; }

@@ -27,9 +27,8 @@ std::vector<CheckerboardView> readViews(const Checkerboard& board, Photographs& 
   }
   // NOLINTEND(bugprone-unchecked-optional-access)
   if (seen == 0) {
-    throw ProcedureError(
-        "no checkerboard photographs (checkerboard/*.png) and no camera.yaml: about 15 photographs of the board are "
-        "needed once per camera");
+    throw ProcedureError("no checkerboard photographs from " + source.checkerboardPlace() +
+                         ", and no camera.yaml beside: about 15 photographs of the board are needed once per camera");
   }
   return views;
 }

@@ -113,7 +113,7 @@ TEST_F(PhotosTest, FiducialsMayBePixelsInstead) {
 
 TEST_F(PhotosTest, NoCheckerboardNeedsKnownIntrinsics) {
   fs::remove_all(photos() / "checkerboard");
-  expectRefused({"no checkerboard photographs", "camera.yaml"});
+  expectRefused({"no checkerboard photographs", (photos() / "checkerboard").string(), "camera.yaml"});
   const auto camera = calib::loadCalibration(wall()).camera.value();
   std::string yaml = "size: [960, 600]\nfx: " + std::to_string(camera.fx) + "\nfy: " + std::to_string(camera.fy) +
                      "\ncx: " + std::to_string(camera.cx) + "\ncy: " + std::to_string(camera.cy) + "\nradial: [";

@@ -127,6 +127,8 @@ TEST_F(CaptureTest, PlacesGivenByNameKeepTheirOrderAndJoinTheirCheckerboards) {
   EXPECT_EQ(codeOf(photographs.nextCheckerboard()->photo), 3);
   EXPECT_EQ(codeOf(photographs.nextCheckerboard()->photo), 2);
   EXPECT_FALSE(photographs.nextCheckerboard());
+  EXPECT_EQ(photographs.checkerboardPlace(), (photos() / "right/checkerboard").string() + ", " +
+                                                 (photos() / "left/checkerboard").string() + " (.png or .jpg)");
 }
 
 TEST_F(CaptureTest, PlacesAreInTheOrderOfTheirNumbers) {
