@@ -13,5 +13,5 @@ pixelflex_test(vnc_e2e_test LABEL e2e TIMEOUT 120
 
 pixelflex_test(vnc_test LABEL unit TIMEOUT 120
   SOURCES unit/vnc_address_test.cpp unit/vnc_failure_test.cpp unit/vnc_hostile_test.cpp unit/vnc_pieces_test.cpp
-    unit/vnc_session_test.cpp
+    unit/vnc_reconnect_test.cpp unit/vnc_session_test.cpp
   LINK pixelflex_test_support)

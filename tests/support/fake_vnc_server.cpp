@@ -124,7 +124,7 @@ std::vector<std::uint8_t> FakeConnection::shakeHands(devices::Size desktop, cons
   return encodings;
 }
 
-FakeVncServer::FakeVncServer(Script script, Transport transport) {
+FakeVncServer::FakeVncServer(Script script, Transport transport, int clients) : clients_(clients) {
   if (transport == Transport::kUnix) {
     const std::string path = (folder_ / "fake.sock").string();
     listener_ = listenUnix(path);
@@ -143,8 +143,13 @@ FakeVncServer::~FakeVncServer() {
 }
 
 void FakeVncServer::serve(const Script& script) const {
+  for (int i = 0; i < clients_ && serveNext(script); ++i) {
+  }
+}
+
+bool FakeVncServer::serveNext(const Script& script) const {
   const int socket = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
-  if (socket < 0) return;
+  if (socket < 0) return false;
   FakeConnection connection(socket);
   try {
     script(connection);
@@ -155,6 +160,7 @@ void FakeVncServer::serve(const Script& script) const {
     ::shutdown(socket, SHUT_RDWR);
   }
   ::close(socket);
+  return true;
 }
 
 }  // namespace pixelflex::testing

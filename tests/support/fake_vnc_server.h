@@ -58,13 +58,14 @@ class FakeConnection {
 };
 
 /// A VNC server that says exactly what a test wants: listens on a UNIX socket or a TCP port of 127.0.0.1, and plays its
-/// script to the first client, on a thread of its own; closes the connection at the script's end.
+/// script to the first client, or to the first few, one after the other, on a thread of its own; closes the connection
+/// at the script's end.
 class FakeVncServer {
  public:
   using Script = std::function<void(FakeConnection&)>;
   enum class Transport { kUnix, kTcp };
 
-  explicit FakeVncServer(Script script, Transport transport = Transport::kUnix);
+  explicit FakeVncServer(Script script, Transport transport = Transport::kUnix, int clients = 1);
   ~FakeVncServer();
   FakeVncServer(const FakeVncServer&) = delete;
   FakeVncServer& operator=(const FakeVncServer&) = delete;
@@ -74,9 +75,11 @@ class FakeVncServer {
 
  private:
   void serve(const Script& script) const;
+  [[nodiscard]] bool serveNext(const Script& script) const;
 
   TemporaryFolder folder_;
   std::string address_;
+  int clients_;
   int listener_ = -1;
   std::jthread thread_;
 };

@@ -162,7 +162,7 @@ TEST(SessionFailure, GivesUpOnASilentServer) {
   SessionOptions options = optionsFor(server.address());
   options.connectTimeout = milliseconds(200);
   const Closed closed = closedBy(options);
-  EXPECT_EQ(closed.kind, CloseKind::kNotVnc);
+  EXPECT_EQ(closed.kind, CloseKind::kUnreachable);
   EXPECT_THAT(closed.message, HasSubstr("accepts connections but says nothing"));
 }
 

@@ -9,6 +9,7 @@
 #include <sys/un.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <sstream>
 #include <system_error>
@@ -48,17 +49,18 @@ void setBlocking(int socket) {
   ::fcntl(socket, F_SETFL, ::fcntl(socket, F_GETFL) & ~O_NONBLOCK);
 }
 
-// Input must not wait for a full packet, and a link that died without a word must be noticed within a minute.
+// Input must not wait for a full packet, and a link that died without a word must be noticed within ten seconds, idle
+// or not.
 void tuneTcp(int socket) {
   const auto set = [socket](int level, int option, int value) {
     ::setsockopt(socket, level, option, &value, sizeof value);
   };
   set(IPPROTO_TCP, TCP_NODELAY, 1);
   set(SOL_SOCKET, SO_KEEPALIVE, 1);
-  set(IPPROTO_TCP, TCP_KEEPIDLE, 30);
-  set(IPPROTO_TCP, TCP_KEEPINTVL, 10);
+  set(IPPROTO_TCP, TCP_KEEPIDLE, 3);
+  set(IPPROTO_TCP, TCP_KEEPINTVL, 2);
   set(IPPROTO_TCP, TCP_KEEPCNT, 3);
-  set(IPPROTO_TCP, TCP_USER_TIMEOUT, 60'000);
+  set(IPPROTO_TCP, TCP_USER_TIMEOUT, 9'000);
 }
 
 [[noreturn]] void explain(const ServerAddress& server, int error, std::chrono::milliseconds timeout) {
@@ -72,19 +74,24 @@ void tuneTcp(int socket) {
   fail("cannot connect to " + where + ": " + errorText(error));
 }
 
-FileDescriptor connectTcp(const ServerAddress& server, std::chrono::milliseconds timeout, const Signal& stop) {
-  const Deadline deadline = std::chrono::steady_clock::now() + timeout;
+FileDescriptor connectTcp(const ServerAddress& server, const ConnectLimits& limits, const Signal& stop) {
+  const auto addresses = lookUpHost(server.host, server.port, std::chrono::steady_clock::now() + limits.lookUp, stop);
+  const Deadline deadline = std::chrono::steady_clock::now() + limits.connect;
   int error = ETIMEDOUT;
-  for (const HostAddress& address : lookUpHost(server.host, server.port, deadline, stop)) {
+  for (std::size_t i = 0; i < addresses.size(); ++i) {
+    const HostAddress& address = addresses[i];
+    const Deadline now = std::chrono::steady_clock::now();
+    // One that does not answer leaves time for the others.
+    const Deadline turn = now + (deadline - now) / static_cast<std::int64_t>(addresses.size() - i);
     FileDescriptor socket = makeSocket(address.storage.ss_family);
-    error = connectSocket(socket.get(), reinterpret_cast<const sockaddr*>(&address.storage), address.length, deadline,
-                          stop);
+    error =
+        connectSocket(socket.get(), reinterpret_cast<const sockaddr*>(&address.storage), address.length, turn, stop);
     if (error != 0) continue;
     tuneTcp(socket.get());
     setBlocking(socket.get());
     return socket;
   }
-  explain(server, error, timeout);
+  explain(server, error, limits.connect);
 }
 
 sockaddr_un unixAddress(const std::string& path) {
@@ -134,8 +141,8 @@ std::string describeServer(const ServerAddress& server) {
   return server.host + " port " + std::to_string(server.port);
 }
 
-FileDescriptor connectToServer(const ServerAddress& server, std::chrono::milliseconds timeout, const Signal& stop) {
-  return server.isUnixSocket() ? connectUnix(server, timeout, stop) : connectTcp(server, timeout, stop);
+FileDescriptor connectToServer(const ServerAddress& server, const ConnectLimits& limits, const Signal& stop) {
+  return server.isUnixSocket() ? connectUnix(server, limits.connect, stop) : connectTcp(server, limits, stop);
 }
 
 }  // namespace pixelflex::viewer

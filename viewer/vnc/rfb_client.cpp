@@ -31,7 +31,7 @@ void greet(RfbState& rfb, Deadline deadline, const Signal& stop) {
   std::string greeting;
   while (greeting.size() < kGreetingBytes) {
     if (!waitFor(rfb.client->sock, POLLIN, deadline, stop)) {
-      throw SessionError(CloseKind::kNotVnc,
+      throw SessionError(CloseKind::kUnreachable,
                          rfb.handshake.where + " accepts connections but says nothing: is it a VNC server?");
     }
     std::array<char, kGreetingBytes> part{};
@@ -107,6 +107,7 @@ RfbClient::~RfbClient() = default;
 void RfbClient::handshake(Deadline deadline, const Signal& stop) {
   greet(*state_, deadline, stop);
   initialise(*state_, deadline);
+  state_->limitReading();
   requestFirstPicture(*state_);
 }
 
@@ -148,6 +149,7 @@ std::vector<SessionEvent> RfbClient::takeEvents() {
 
 std::optional<Region> RfbClient::takeFinishedUpdate() {
   if (!std::exchange(state_->updateFinished, false)) return std::nullopt;
+  if (state_->isOnlySignOfLife()) state_->damage.clear();
   return std::exchange(state_->damage, {});
 }
 
@@ -171,6 +173,14 @@ void RfbClient::send(const Input& input) {
     sent = SendClientCutText(client, text.data(), static_cast<int>(text.size()));
   }
   if (!sent) state_->fail();
+}
+
+void RfbClient::askForSignOfLife() {
+  if (!SendFramebufferUpdateRequest(state_->client, 0, 0, 1, 1, FALSE)) state_->fail();
+}
+
+void RfbClient::giveUp() const {
+  throw SessionError(CloseKind::kLost, state_->handshake.where + " does not answer any more");
 }
 
 // Asking for the encodings once more makes the server remove what it has drawn.

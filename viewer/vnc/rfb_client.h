@@ -33,7 +33,7 @@ class RfbClient {
 
   /// True while bytes of a next message were read from the socket already: poll() does not see those.
   [[nodiscard]] bool hasBufferedBytes() const;
-  /// Reads one message of the server.
+  /// Reads one message of the server. One that stops half way for longer than the session's patience is an error.
   void handleMessage();
   /// What the messages brought, oldest first: all but Connected and Closed.
   [[nodiscard]] std::vector<SessionEvent> takeEvents();
@@ -42,6 +42,10 @@ class RfbClient {
   [[nodiscard]] FrameView frame() const;
 
   void send(const Input& input);
+  /// Asks for the desktop's first pixel. An answer with the colour that it had is no damage.
+  void askForSignOfLife();
+  /// Throws what to say of a server that does not answer.
+  [[noreturn]] void giveUp() const;
   /// When the server draws the pointer into the desktop although nobody else uses it, takes it over, once.
   void claimPointer();
 

@@ -13,6 +13,11 @@ bool connectionBroke(const RfbLog& log) {
   return log.last().starts_with("read (") || log.last().starts_with("write");
 }
 
+// Within the time that rfb_state.cpp limits reading to.
+bool stoppedHalfWay(const RfbLog& log) {
+  return log.last() == "Connection timed out";
+}
+
 SessionError refusal(const HandshakeState& state, const std::string& reason) {
   const std::string because = reason.empty() ? "" : " (it says: " + reason + ")";
   if (state.passwordGiven) {
@@ -49,6 +54,7 @@ SessionError handshakeFailure(const HandshakeState& state, const RfbLog& log) {
 SessionError streamFailure(const std::string& where, bool insideUpdate, const RfbLog& log) {
   const std::string when = insideUpdate ? " in the middle of an update" : "";
   if (closedByServer(log)) return {CloseKind::kLost, where + " closed the connection" + when};
+  if (stoppedHalfWay(log)) return {CloseKind::kLost, where + " stopped answering" + when};
   if (connectionBroke(log))
     return {CloseKind::kLost, "the connection to " + where + " broke" + when + ": " + log.last()};
   const std::string what = log.last().empty() ? "no details" : log.last();

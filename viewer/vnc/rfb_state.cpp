@@ -1,9 +1,12 @@
 #include "viewer/vnc/rfb_state.h"
 
 #include <rfb/rfbclient.h>
+#include <sys/socket.h>
+#include <sys/time.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstring>
 #include <mutex>
 #include <new>
@@ -178,12 +181,32 @@ bool RfbState::allocate() noexcept {
   pixels = std::move(fresh);
   pixelsSize = size;
   client->frameBuffer = pixels.get();
+  firstPixel.reset();
   damage.clear();
   if (changed) {
     damage.add(boxOf(size));
     events.emplace_back(Resized{size});
   }
   return true;
+}
+
+// Between two attempts libvncclient waits for a tenth of a second; it gives up at the eleventh in vain when told to
+// wait for one second.
+void RfbState::limitReading() const {
+  constexpr int kAttempts = 11;
+  constexpr std::chrono::milliseconds kBetween{100};
+  client->readTimeout = 1;
+  const auto each = std::max(options.patience / kAttempts - kBetween, std::chrono::milliseconds(1));
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(each);
+  const timeval limit{.tv_sec = seconds.count(), .tv_usec = std::chrono::microseconds(each - seconds).count()};
+  ::setsockopt(client->sock, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
+}
+
+bool RfbState::isOnlySignOfLife() {
+  const auto before = firstPixel;
+  firstPixel.emplace();
+  std::copy_n(pixels.get(), firstPixel->size(), firstPixel->begin());
+  return before == firstPixel && damage.boxes().size() == 1 && damage.boxes().front() == Box{0, 0, 1, 1};
 }
 
 void RfbState::readAlphaCursor(devices::Size size, int hotX, int hotY) {

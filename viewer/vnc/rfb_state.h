@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
@@ -38,6 +39,10 @@ struct RfbState {
   /// Gives libvncclient a frame buffer of its present size; false and `failure` if that cannot be. What was shown stays
   /// shown until the server has sent the new picture.
   bool allocate() noexcept;
+  /// From here on a read ends with an error when nothing comes for as long as the session is patient.
+  void limitReading() const;
+  /// The damage is the first pixel and nothing else, and that has the colour that it had when this was last called.
+  [[nodiscard]] bool isOnlySignOfLife();
   void readAlphaCursor(devices::Size size, int hotX, int hotY);
 
   RfbLog log;
@@ -46,6 +51,7 @@ struct RfbState {
   _rfbClient* client = nullptr;
   std::unique_ptr<std::uint8_t, Free> pixels;
   devices::Size pixelsSize;
+  std::optional<std::array<std::uint8_t, 3>> firstPixel;  // as of the last update of this frame buffer
   Region damage;
   bool insideUpdate = false;
   bool updateFinished = false;

@@ -1,22 +1,30 @@
 #include "viewer/vnc/session.h"
 
 #include <poll.h>
-#include <sys/socket.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
+#include <deque>
 #include <iterator>
-#include <mutex>
 #include <thread>
 #include <utility>
 
+#include "viewer/vnc/backoff.h"
 #include "viewer/vnc/connector.h"
-#include "viewer/vnc/input_queue.h"
+#include "viewer/vnc/liveness.h"
 #include "viewer/vnc/rfb_client.h"
+#include "viewer/vnc/session_desk.h"
 #include "viewer/vnc/session_error.h"
 
 namespace pixelflex::viewer {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// A host that was there once answers within this if it is there again; one that comes back meanwhile must not wait for
+// the next of the kernel's own, ever rarer attempts.
+constexpr std::chrono::milliseconds kReconnectTimeout{1500};
 
 // libvncclient writes without MSG_NOSIGNAL. The signal goes to the thread that writes, so blocking it here leaves the
 // program's own handling of SIGPIPE alone.
@@ -27,148 +35,142 @@ void blockSigpipe() {
   ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
 }
 
+bool takesMore(int socket) {
+  pollfd watched{socket, POLLOUT, 0};
+  return ::poll(&watched, 1, 0) > 0;
+}
+
 }  // namespace
 
 class Session::Worker {
  public:
   Worker(SessionOptions options, FrameBelt& belt, std::function<void()> wake)
-      : options_(std::move(options)), belt_(belt), wake_(std::move(wake)) {
+      : options_(std::move(options)), belt_(belt), desk_(!options_.viewOnly, std::move(wake)) {
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
   }
   ~Worker() { stop(); }
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  std::vector<SessionEvent> takeEvents() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(events_, {});
-  }
-
-  void add(Input input) {
-    {
-      const std::lock_guard lock(mutex_);
-      if (!connected_ || options_.viewOnly) return;
-      input_.add(std::move(input));
-    }
-    inputWaits_.raise();
-  }
+  SessionDesk& desk() { return desk_; }
 
   void stop() {
     thread_.request_stop();
-    stopped_.raise();
-    const std::lock_guard lock(mutex_);
-    connected_ = false;
-    // Ends whatever read or write libvncclient is in.
-    if (socket_.get() >= 0) ::shutdown(socket_.get(), SHUT_RDWR);
+    desk_.stop();
   }
 
  private:
   void run(const std::stop_token& stop) {
     blockSigpipe();
+    Backoff backoff;
     try {
-      converse(stop);
+      while (true) {
+        Closed end = converse(stop);
+        desk_.close();
+        if (stop.stop_requested()) return;
+        if (!triesAgain(end.kind)) return desk_.post({std::move(end)});
+        const CloseKind kind = end.kind;
+        if (!std::exchange(lost_, true)) desk_.post({Lost{kind, std::move(end.message)}});
+        waitFor(-1, 0, Clock::now() + backoff.after(kind, lasted()), desk_.stopped());
+      }
     } catch (const SessionStopped&) {
+      desk_.close();
+    }
+  }
+
+  // One connection from its first byte to its end: why it ended.
+  Closed converse(const std::stop_token& stop) {
+    connectedSince_.reset();
+    try {
+      talk(stop);
     } catch (const SessionError& error) {
-      close({error.kind(), error.what()}, stop);
+      return {error.kind(), error.what()};
     } catch (const std::exception& error) {
-      close({CloseKind::kLost, "the session with " + describeServer(options_.server) + " ended: " + error.what()},
-            stop);
+      return {CloseKind::kLost, "the session with " + describeServer(options_.server) + " ended: " + error.what()};
     }
-    closeSocket();
   }
 
-  void converse(const std::stop_token& stop) {
-    const int socket = adopt(connectToServer(options_.server, options_.connectTimeout, stopped_), stop);
+  [[nodiscard]] bool triesAgain(CloseKind kind) const {
+    const bool wanted = options_.retry == Retry::kAlways || (options_.retry == Retry::kLost && everConnected_);
+    return wanted && mayHeal(kind);
+  }
+
+  [[nodiscard]] Clock::duration lasted() const {
+    return connectedSince_ ? Clock::now() - *connectedSince_ : Clock::duration::zero();
+  }
+
+  [[noreturn]] void talk(const std::stop_token& stop) {
+    const auto patience = lost_ ? std::min(kReconnectTimeout, options_.connectTimeout) : options_.connectTimeout;
+    const int socket = desk_.adopt(
+        connectToServer(options_.server, {.lookUp = options_.connectTimeout, .connect = patience}, desk_.stopped()));
     RfbClient client(socket, options_);
-    client.handshake(std::chrono::steady_clock::now() + options_.connectTimeout, stopped_);
-    announce(client, stop);
+    client.handshake(Clock::now() + options_.connectTimeout, desk_.stopped());
+    unsent_.clear();
+    announce(client);
+    Liveness liveness(3 * options_.patience, Clock::now());
     while (true) {
-      sendInput(client);
-      if (!client.hasBufferedBytes() && !waitForServer(socket)) continue;
-      receive(client, stop);
+      sendInput(client, socket);
+      if (!client.hasBufferedBytes() && !waitForServer(client, socket, liveness)) continue;
+      if (receive(client, stop)) liveness = Liveness(options_.patience, Clock::now());
+      liveness.heard(Clock::now());
     }
   }
 
-  // From here on stop() can reach the socket.
-  int adopt(FileDescriptor socket, const std::stop_token& stop) {
-    const std::lock_guard lock(mutex_);
-    if (stop.stop_requested()) throw SessionStopped{};
-    socket_ = std::move(socket);
-    return socket_.get();
+  void announce(const RfbClient& client) {
+    connectedSince_ = Clock::now();
+    everConnected_ = true;
+    lost_ = false;
+    desk_.open();
+    desk_.post({Connected{client.desktopName(), client.desktop()}});
   }
 
-  void closeSocket() {
-    const std::lock_guard lock(mutex_);
-    connected_ = false;
-    socket_ = FileDescriptor();
+  // Sleeps until the server speaks (true) or something is to be done for it.
+  bool waitForServer(RfbClient& client, int socket, Liveness& liveness) {
+    const bool clogged = !unsent_.empty();
+    const int input = clogged ? -1 : desk_.inputWaits().fd();
+    const auto events = static_cast<short>(clogged ? POLLIN | POLLOUT : POLLIN);
+    std::array<pollfd, 3> watched{{{socket, events, 0}, {input, POLLIN, 0}, {desk_.stopped().fd(), POLLIN, 0}}};
+    const int ready = ::poll(watched.data(), watched.size(), millisecondsUntil(liveness.due()));
+    if (ready > 0 && watched[2].revents != 0) throw SessionStopped{};
+    if (ready > 0) return (watched[0].revents & ~POLLOUT) != 0;
+    const auto verdict = liveness.judge(Clock::now());
+    if (verdict == Liveness::Verdict::kAsk && takesMore(socket)) client.askForSignOfLife();
+    if (verdict == Liveness::Verdict::kGone) client.giveUp();
+    return false;
   }
 
-  void announce(RfbClient& client, const std::stop_token& stop) {
-    {
-      const std::lock_guard lock(mutex_);
-      connected_ = !stop.stop_requested();
+  // A server that takes nothing more must not keep this thread from reading, or both would wait for ever.
+  void sendInput(RfbClient& client, int socket) {
+    if (unsent_.empty()) std::ranges::move(desk_.takeInput(), std::back_inserter(unsent_));
+    while (!unsent_.empty() && takesMore(socket)) {
+      client.send(unsent_.front());
+      unsent_.pop_front();
     }
-    post({Connected{client.desktopName(), client.desktop()}});
   }
 
-  // Sleeps until the server speaks (true) or there is input to send.
-  bool waitForServer(int socket) {
-    bool serverSpeaks = false;
-    while (!serverSpeaks) {
-      std::array<pollfd, 3> watched{{{socket, POLLIN, 0}, {inputWaits_.fd(), POLLIN, 0}, {stopped_.fd(), POLLIN, 0}}};
-      if (::poll(watched.data(), watched.size(), -1) < 0) continue;
-      if (watched[2].revents != 0) throw SessionStopped{};
-      if (watched[1].revents != 0) return false;
-      serverSpeaks = watched[0].revents != 0;
-    }
-    return true;
-  }
-
-  void sendInput(RfbClient& client) {
-    inputWaits_.clear();
-    std::vector<Input> waiting;
-    {
-      const std::lock_guard lock(mutex_);
-      waiting = input_.takeAll();
-    }
-    for (const Input& input : waiting) client.send(input);
-  }
-
-  void receive(RfbClient& client, const std::stop_token& stop) {
-    const auto received = std::chrono::steady_clock::now();
+  // True when a whole update came.
+  bool receive(RfbClient& client, const std::stop_token& stop) {
+    const auto received = Clock::now();
     client.handleMessage();
     if (options_.claimPointer && !options_.viewOnly) client.claimPointer();
-    post(client.takeEvents());
+    desk_.post(client.takeEvents());
     std::optional<Region> damage = client.takeFinishedUpdate();
-    if (!damage || damage->empty()) return;
+    if (!damage) return false;
+    if (damage->empty()) return true;
     const Update update{++updates_, received, *std::move(damage)};
     if (!publishUpdate(client.frame(), update, belt_, stop)) throw SessionStopped{};
-  }
-
-  void post(std::vector<SessionEvent> events) {
-    if (events.empty()) return;
-    {
-      const std::lock_guard lock(mutex_);
-      std::move(events.begin(), events.end(), std::back_inserter(events_));
-    }
-    if (wake_) wake_();
-  }
-
-  void close(Closed closed, const std::stop_token& stop) {
-    if (!stop.stop_requested()) post({std::move(closed)});
+    return true;
   }
 
   const SessionOptions options_;
   FrameBelt& belt_;
-  const std::function<void()> wake_;
-  Signal stopped_;
-  Signal inputWaits_;
-  std::uint64_t updates_ = 0;  // the thread's own
-  std::mutex mutex_;           // guards what follows
-  bool connected_ = false;
-  FileDescriptor socket_;
-  InputQueue input_;
-  std::vector<SessionEvent> events_;
+  SessionDesk desk_;
+  // The thread's own:
+  std::uint64_t updates_ = 0;
+  bool lost_ = false;
+  bool everConnected_ = false;
+  std::deque<Input> unsent_;
+  std::optional<Clock::time_point> connectedSince_;
   std::jthread thread_;
 };
 
@@ -178,19 +180,19 @@ Session::Session(SessionOptions options, FrameBelt& belt, std::function<void()> 
 Session::~Session() = default;
 
 std::vector<SessionEvent> Session::takeEvents() {
-  return worker_->takeEvents();
+  return worker_->desk().takeEvents();
 }
 
 void Session::sendPointer(int x, int y, std::uint8_t buttons) {
-  worker_->add(PointerInput{x, y, buttons});
+  worker_->desk().add(PointerInput{x, y, buttons});
 }
 
 void Session::sendKey(std::uint32_t keysym, bool down) {
-  worker_->add(KeyInput{keysym, down});
+  worker_->desk().add(KeyInput{keysym, down});
 }
 
 void Session::sendClipboard(std::string text) {
-  worker_->add(ClipboardInput{std::move(text)});
+  worker_->desk().add(ClipboardInput{std::move(text)});
 }
 
 void Session::stop() {

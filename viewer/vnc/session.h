@@ -17,6 +17,12 @@ namespace pixelflex::viewer {
 /// The largest desktop, each way: TigerVNC's own limit, and the most that libvncclient's 31-bit sizes can hold.
 inline constexpr int kMaxDesktopExtent = 16384;
 
+enum class Retry {
+  kNever,
+  kLost,    // once the desktop was there; a first connection that fails ends the session
+  kAlways,  // a server that is not there yet is waited for, too
+};
+
 struct SessionOptions {
   ServerAddress server;
   /// For servers that ask for one; VNC's own scheme looks at its first eight characters only.
@@ -33,12 +39,19 @@ struct SessionOptions {
   bool claimPointer = true;
   /// For the connection, and once more for the handshake.
   std::chrono::milliseconds connectTimeout{10'000};
+  /// A server that says nothing for so long, although it is asked in between, counts as lost; before its first picture
+  /// three times as long. Not less than 1.2 s.
+  std::chrono::milliseconds patience{9'000};
+  /// When the connection breaks. What cannot heal by itself (a refused password, a desktop too large) ends the session.
+  Retry retry = Retry::kNever;
 };
 
 /// A connection to a VNC server, on a thread of its own. That thread connects, decodes into one linear frame buffer and
 /// puts each whole server update on the belt; it is the only one that reads or writes the socket. Every member may be
-/// called from any thread. Nothing throws because of the server: whatever ends the connection arrives as a Closed
-/// event. The destructor stops and waits for the thread, a fraction of a second at most, whatever the server does.
+/// called from any thread. Nothing throws because of the server: whatever ends the connection arrives as a Lost event,
+/// and Connected again when the server is back, or as a Closed event. Input while there is no connection is dropped,
+/// and what was held down when it broke is let go on the next one. The destructor stops and waits for the thread, a
+/// fraction of a second at most, whatever the server does.
 class Session {
  public:
   /// Starts at once. `belt` must outlive the session. `wake` is called from the session's thread after each new event

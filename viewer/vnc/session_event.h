@@ -9,7 +9,7 @@
 
 namespace pixelflex::viewer {
 
-/// The handshake is done; the first picture follows on the belt.
+/// The handshake is done; the first picture follows on the belt. Again after each Lost.
 struct Connected {
   std::string name;  // as the server calls its desktop, UTF-8
   devices::Size size;
@@ -54,6 +54,14 @@ enum class CloseKind {
   kProtocol,        // the server sent something that makes no sense
 };
 
+/// The server is gone or cannot be reached; the session tries again by itself. Once for each loss, however many
+/// attempts follow.
+struct Lost {
+  CloseKind kind = CloseKind::kLost;
+  std::string message;  // as Closed's
+  bool operator==(const Lost&) const = default;
+};
+
 /// The last event of a session.
 struct Closed {
   CloseKind kind = CloseKind::kLost;
@@ -61,6 +69,6 @@ struct Closed {
   bool operator==(const Closed&) const = default;
 };
 
-using SessionEvent = std::variant<Connected, Resized, CursorShape, CursorMoved, Bell, Clipboard, Closed>;
+using SessionEvent = std::variant<Connected, Resized, CursorShape, CursorMoved, Bell, Clipboard, Lost, Closed>;
 
 }  // namespace pixelflex::viewer

@@ -14,15 +14,11 @@
 #include "viewer/vnc/session_error.h"
 
 namespace pixelflex::viewer {
-namespace {
-
 int millisecondsUntil(std::optional<Deadline> deadline) {
   if (!deadline) return -1;
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(*deadline - std::chrono::steady_clock::now()).count();
   return static_cast<int>(std::clamp<std::int64_t>(left, 0, std::numeric_limits<int>::max()));
 }
-
-}  // namespace
 
 FileDescriptor::~FileDescriptor() {
   if (fd_ >= 0) ::close(fd_);

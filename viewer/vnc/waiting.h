@@ -41,6 +41,9 @@ class Signal {
 
 using Deadline = std::chrono::steady_clock::time_point;
 
+/// For poll(): rounded up, never negative; -1, for ever, without a deadline.
+[[nodiscard]] int millisecondsUntil(std::optional<Deadline> deadline);
+
 /// Waits until `fd` is ready for `events` (poll()'s) or is in error, and says whether it became so before the deadline;
 /// without a deadline it waits for ever. Throws SessionStopped as soon as `stop` is raised.
 bool waitFor(int fd, short events, std::optional<Deadline> deadline, const Signal& stop);
