@@ -165,7 +165,7 @@ TEST(Xvnc, ChecksThePassword) {
   const XvncServer server({.password = "sesame"});
   EXPECT_EQ(closedWithPassword(server, "sesame").message, "connected");
   const Closed missing = closedWithPassword(server, std::nullopt);
-  EXPECT_EQ(missing.kind, CloseKind::kAuthentication);
+  EXPECT_EQ(missing.kind, CloseKind::kPasswordNeeded);
   EXPECT_THAT(missing.message, HasSubstr("asks for a password"));
   const Closed wrong = closedWithPassword(server, "wrong");
   EXPECT_EQ(wrong.kind, CloseKind::kAuthentication);

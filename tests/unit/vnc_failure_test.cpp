@@ -211,7 +211,7 @@ FakeVncServer::Script asksForPassword(const std::string& answer) {
 TEST(SessionFailure, AsksForAPassword) {
   const FakeVncServer server(asksForPassword("no"));
   const Closed closed = closedBy(server);
-  EXPECT_EQ(closed.kind, CloseKind::kAuthentication);
+  EXPECT_EQ(closed.kind, CloseKind::kPasswordNeeded);
   EXPECT_THAT(closed.message, HasSubstr("asks for a password: give it with --password-file"));
 }
 
@@ -235,11 +235,11 @@ TEST(SessionFailure, ReportsWhatTheServerSaysWhenItRefuses) {
 
 TEST(SessionFailure, ReportsUnknownSecurityTypes) {
   const FakeVncServer server(
-      [](FakeConnection& client) { client.send(Message().text("RFB 003.008\n").u8(2).u8(19).u8(18)); });
+      [](FakeConnection& client) { client.send(Message().text("RFB 003.008\n").u8(2).u8(30).u8(18)); });
   const Closed closed = closedBy(server);
-  EXPECT_EQ(closed.kind, CloseKind::kAuthentication);
-  EXPECT_THAT(closed.message, HasSubstr("it offers 19, 18"));
-  EXPECT_THAT(closed.message, HasSubstr("SecurityTypes None or VncAuth"));
+  EXPECT_EQ(closed.kind, CloseKind::kUntrusted);
+  EXPECT_THAT(closed.message, HasSubstr("offers 30, 18 and no security type known here"));
+  EXPECT_THAT(closed.message, HasSubstr("SecurityTypes X509Vnc, TLSVnc, VncAuth or None"));
 }
 
 TEST(SessionFailure, RefusesDesktopsThatAreTooLarge) {

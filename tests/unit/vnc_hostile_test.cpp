@@ -67,7 +67,7 @@ TEST(HostileServer, EndsWithAMessageWhateverItSends) {
       {"65535x65535", FakeConnection::greeting({65535, 65535}), CloseKind::kTooLarge, "65535x65535"},
       {"shrinks to nothing", Message(FakeConnection::greeting({9, 9})).update(1).rect(0, 0, 0, 0, -223),
        CloseKind::kProtocol, "a desktop of 0x0"},
-      {"version without numbers", Message().text("RFB abc.def\n"), CloseKind::kProtocol, "Not a valid VNC server"},
+      {"version without numbers", Message().text("RFB abc.def\n"), CloseKind::kNotVnc, "RFB abc.def"},
   };
   for (const Hostile& hostile : cases) {
     SCOPED_TRACE(hostile.name);

@@ -23,7 +23,9 @@ bool mayHeal(CloseKind kind) {
     case CloseKind::kLost:
     case CloseKind::kProtocol:
       return true;
+    case CloseKind::kPasswordNeeded:
     case CloseKind::kAuthentication:
+    case CloseKind::kUntrusted:
     case CloseKind::kTooLarge:
       break;
   }

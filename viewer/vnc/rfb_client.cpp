@@ -1,8 +1,6 @@
 #include "viewer/vnc/rfb_client.h"
 
-#include <poll.h>
 #include <rfb/rfbclient.h>
-#include <sys/socket.h>
 
 #include <algorithm>
 #include <array>
@@ -10,50 +8,32 @@
 #include <span>
 #include <utility>
 
-#include "viewer/vnc/handshake_watch.h"
 #include "viewer/vnc/rfb_failure.h"
+#include "viewer/vnc/rfb_handshake.h"
 #include "viewer/vnc/rfb_messages.h"
 #include "viewer/vnc/rfb_state.h"
 #include "viewer/vnc/text_encoding.h"
 
+// Exported, but in no header.
+extern "C" void DefaultSupportedMessages(rfbClient* client);
+
 namespace pixelflex::viewer {
 namespace {
 
-constexpr std::size_t kGreetingBytes = 12;
 constexpr std::uint32_t kMaxClipboardBytes = 1u << 20;      // from the server
 constexpr std::size_t kMaxSentClipboardBytes = 256u << 10;  // what TigerVNC's server accepts
 
 enum ServerMessage : std::uint8_t { kFramebufferUpdate = 0, kSetColourMapEntries = 1, kBell = 2, kServerCutText = 3 };
 
-// The greeting is read here, because libvncclient would wait for ever for the twelfth byte of something else, and given
-// back as if it had not been read.
-void greet(RfbState& rfb, Deadline deadline, const Signal& stop) {
-  std::string greeting;
-  while (greeting.size() < kGreetingBytes) {
-    if (!waitFor(rfb.client->sock, POLLIN, deadline, stop)) {
-      throw SessionError(CloseKind::kUnreachable,
-                         rfb.handshake.where + " accepts connections but says nothing: is it a VNC server?");
-    }
-    std::array<char, kGreetingBytes> part{};
-    const ssize_t got = ::recv(rfb.client->sock, part.data(), kGreetingBytes - greeting.size(), 0);
-    if (got <= 0) {
-      throw SessionError(CloseKind::kLost, rfb.handshake.where + " closed the connection during the handshake");
-    }
-    greeting.append(part.data(), static_cast<std::size_t>(got));
-    if (!greeting.starts_with(std::string_view("RFB ").substr(0, greeting.size()))) {
-      throw notVnc(rfb.handshake.where, greeting);
-    }
-  }
-  std::memcpy(rfb.client->buf, greeting.data(), greeting.size());
-  rfb.client->bufoutptr = rfb.client->buf;
-  rfb.client->buffered = static_cast<unsigned>(greeting.size());
-}
-
-void initialise(RfbState& rfb, Deadline deadline) {
-  const HandshakeWatch watch(rfb.client->sock, deadline);
-  const bool agreed = InitialiseRFBConnection(rfb.client) != FALSE;
-  rfb.handshake.timedOut = watch.expired();
-  if (!agreed || rfb.handshake.timedOut) throw handshakeFailure(rfb.handshake, rfb.log);
+// libvncclient goes on from here, as if the handshake had been its own.
+void adopt(RfbState& rfb, Handshake handshake) {
+  DefaultSupportedMessages(rfb.client);
+  rfb.desktopName = utf8FromEither(handshake.desktopName);
+  rfb.security = std::move(handshake.security);
+  rfb.tls = std::move(handshake.tls);
+  if (rfb.tls != nullptr) rfb.client->tlsSession = rfb.tls->handle();
+  rfb.client->si.framebufferWidth = static_cast<std::uint16_t>(handshake.desktop.width);
+  rfb.client->si.framebufferHeight = static_cast<std::uint16_t>(handshake.desktop.height);
 }
 
 void requestFirstPicture(RfbState& rfb) {
@@ -74,7 +54,7 @@ void readUpdate(RfbState& rfb) {
   if (!HandleRFBServerMessage(rfb.client)) rfb.fail();
   rfb.insideUpdate = false;
   if (rfb.log.damaged())
-    throw SessionError(CloseKind::kProtocol, rfb.handshake.where + " sent a damaged update: " + rfb.log.last());
+    throw SessionError(CloseKind::kProtocol, rfb.where + " sent a damaged update: " + rfb.log.last());
 }
 
 // libvncclient would end the session over a text beyond its limit; here such a text is left out.
@@ -105,14 +85,17 @@ RfbClient::RfbClient(int socket, const SessionOptions& options) : state_(std::ma
 RfbClient::~RfbClient() = default;
 
 void RfbClient::handshake(Deadline deadline, const Signal& stop) {
-  greet(*state_, deadline, stop);
-  initialise(*state_, deadline);
+  adopt(*state_, shakeHands(state_->client->sock, state_->options, deadline, stop));
   state_->limitReading();
   requestFirstPicture(*state_);
 }
 
 std::string RfbClient::desktopName() const {
-  return utf8FromEither(state_->client->desktopName);
+  return state_->desktopName;
+}
+
+const ConnectionSecurity& RfbClient::security() const {
+  return state_->security;
 }
 
 devices::Size RfbClient::desktop() const {
@@ -120,7 +103,7 @@ devices::Size RfbClient::desktop() const {
 }
 
 bool RfbClient::hasBufferedBytes() const {
-  return state_->client->buffered > 0;
+  return state_->client->buffered > 0 || (state_->tls != nullptr && state_->tls->hasPendingBytes());
 }
 
 void RfbClient::handleMessage() {
@@ -138,7 +121,7 @@ void RfbClient::handleMessage() {
     case kServerCutText:
       return readClipboard(*state_);
     default:
-      throw SessionError(CloseKind::kProtocol, state_->handshake.where + " sent a message of unknown type " +
+      throw SessionError(CloseKind::kProtocol, state_->where + " sent a message of unknown type " +
                                                    std::to_string(type) + " that was not asked for");
   }
 }
@@ -180,7 +163,7 @@ void RfbClient::askForSignOfLife() {
 }
 
 void RfbClient::giveUp() const {
-  throw SessionError(CloseKind::kLost, state_->handshake.where + " does not answer any more");
+  throw SessionError(CloseKind::kLost, state_->where + " does not answer any more");
 }
 
 // Asking for the encodings once more makes the server remove what it has drawn.

@@ -30,6 +30,7 @@ class RfbClient {
   void handshake(Deadline deadline, const Signal& stop);
   [[nodiscard]] std::string desktopName() const;
   [[nodiscard]] devices::Size desktop() const;
+  [[nodiscard]] const ConnectionSecurity& security() const;
 
   /// True while bytes of a next message were read from the socket already: poll() does not see those.
   [[nodiscard]] bool hasBufferedBytes() const;

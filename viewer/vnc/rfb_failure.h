@@ -7,16 +7,7 @@
 
 namespace pixelflex::viewer {
 
-/// What was known when the handshake failed.
-struct HandshakeState {
-  std::string where;  // describeServer()
-  bool timedOut = false;
-  bool passwordAsked = false;
-  bool passwordGiven = false;
-};
-
 /// Turns libvncclient's last words into an error for people.
-[[nodiscard]] SessionError handshakeFailure(const HandshakeState& state, const RfbLog& log);
 [[nodiscard]] SessionError streamFailure(const std::string& where, bool insideUpdate, const RfbLog& log);
 
 /// Whatever came instead of a VNC server's greeting.

@@ -18,14 +18,12 @@ class RfbLog {
   /// Set when a line tells of damage that libvncclient does not report otherwise: a corrupt ZRLE stream and a copy from
   /// outside the desktop are logged and then count as success.
   [[nodiscard]] bool damaged() const { return damaged_; }
-  [[nodiscard]] bool authenticated() const { return authenticated_; }
   void clear() { last_.clear(); }
   void add(std::string line);
 
  private:
   std::string last_;
   bool damaged_ = false;
-  bool authenticated_ = false;
 };
 
 }  // namespace pixelflex::viewer

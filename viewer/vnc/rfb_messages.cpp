@@ -20,13 +20,19 @@ enum Encoding : std::int32_t {
   kCompressLevel1 = -255,
 };
 
-void append(std::vector<std::uint8_t>& message, std::uint32_t value, int bytes) {
+}  // namespace
+
+std::uint32_t bigEndian(std::span<const std::uint8_t> bytes) {
+  std::uint32_t value = 0;
+  for (const std::uint8_t byte : bytes) value = value << 8 | byte;
+  return value;
+}
+
+void appendNumber(std::vector<std::uint8_t>& message, std::uint32_t value, int bytes) {
   for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) {
     message.push_back(static_cast<std::uint8_t>(value >> shift));
   }
 }
-
-}  // namespace
 
 std::vector<std::uint8_t> setPixelFormatMessage() {
   return {0,  0,   0,  0,            // type, padding
@@ -53,8 +59,8 @@ std::vector<std::uint8_t> setEncodingsMessage(bool lossless) {
                                       kVmwareCursorPositionEncoding};
   if (!lossless) encodings.push_back(kQuality8);
   std::vector<std::uint8_t> message{2, 0};  // type, padding
-  append(message, static_cast<std::uint32_t>(encodings.size()), 2);
-  for (const std::int32_t encoding : encodings) append(message, static_cast<std::uint32_t>(encoding), 4);
+  appendNumber(message, static_cast<std::uint32_t>(encodings.size()), 2);
+  for (const std::int32_t encoding : encodings) appendNumber(message, static_cast<std::uint32_t>(encoding), 4);
   return message;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace pixelflex::viewer {
@@ -14,5 +15,9 @@ inline constexpr std::int32_t kVmwareCursorPositionEncoding = 0x574d5666;
 
 /// Client to server: the encodings, best first. Lossless keeps the server from JPEG.
 [[nodiscard]] std::vector<std::uint8_t> setEncodingsMessage(bool lossless);
+
+/// An unsigned number of at most four bytes in network order.
+[[nodiscard]] std::uint32_t bigEndian(std::span<const std::uint8_t> bytes);
+void appendNumber(std::vector<std::uint8_t>& message, std::uint32_t value, int bytes);
 
 }  // namespace pixelflex::viewer

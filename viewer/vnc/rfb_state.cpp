@@ -32,13 +32,6 @@ RfbState& stateOf(rfbClient* client) {
   return *static_cast<RfbState*>(rfbClientGetClientData(client, &clientDataTag));
 }
 
-char* onPassword(rfbClient* client) noexcept {
-  RfbState& state = stateOf(client);
-  state.handshake.passwordAsked = true;
-  state.handshake.passwordGiven = state.options.password.has_value() && !state.options.password->empty();
-  return state.handshake.passwordGiven ? ::strdup(state.options.password->c_str()) : nullptr;
-}
-
 rfbBool onMalloc(rfbClient* client) noexcept {
   return stateOf(client).allocate() ? TRUE : FALSE;
 }
@@ -93,41 +86,32 @@ void registerEncodings() {
 
 }  // namespace
 
-std::uint32_t bigEndian(std::span<const std::uint8_t> bytes) {
-  std::uint32_t value = 0;
-  for (const std::uint8_t byte : bytes) value = value << 8 | byte;
-  return value;
-}
-
 RfbState::RfbState(int socket, const SessionOptions& sessionOptions)
     : options(sessionOptions), client(rfbGetClient(8, 3, 4)) {
   registerEncodings();
-  handshake.where = describeServer(options.server);
+  where = describeServer(options.server);
   if (client == nullptr) throw std::bad_alloc();
   rfbClientSetClientData(client, &clientDataTag, this);
   client->sock = socket;
-  client->appData.shareDesktop = options.shared ? TRUE : FALSE;
-  client->GetPassword = onPassword;
   client->MallocFrameBuffer = onMalloc;
   client->GotFrameBufferUpdate = onRect;
   client->FinishedFrameBufferUpdate = onFinished;
   client->GotCursorShape = onCursor;
   client->HandleCursorPos = onPointer;
-  const std::array<std::uint32_t, 2> securityTypes{rfbNoAuth, rfbVncAuth};
-  SetClientAuthSchemes(client, securityTypes.data(), static_cast<int>(securityTypes.size()));
 }
 
 RfbState::~RfbState() {
   std::free(client->rcSource);
   std::free(client->rcMask);
   if (client->tjhnd != nullptr) tjDestroy(client->tjhnd);  // nobody else does
-  client->sock = RFB_INVALID_SOCKET;                       // not libvncclient's to close
+  client->sock = RFB_INVALID_SOCKET;                       // neither is libvncclient's to close
+  client->tlsSession = nullptr;
   rfbClientCleanup(client);
 }
 
 void RfbState::fail() const {
   if (failure) throw SessionError(*failure);
-  throw streamFailure(handshake.where, insideUpdate, log);
+  throw streamFailure(where, insideUpdate, log);
 }
 
 void RfbState::read(std::span<std::uint8_t> bytes) const {
@@ -155,7 +139,7 @@ bool RfbState::allocate() noexcept {
   const devices::Size size{client->width, client->height};
   const std::string extent = std::to_string(size.width) + "x" + std::to_string(size.height);
   if (size.width <= 0 || size.height <= 0) {
-    failure = SessionError(CloseKind::kProtocol, handshake.where + " announces a desktop of " + extent + " pixels");
+    failure = SessionError(CloseKind::kProtocol, where + " announces a desktop of " + extent + " pixels");
     return false;
   }
   if (size.width > kMaxDesktopExtent || size.height > kMaxDesktopExtent) {
@@ -213,7 +197,7 @@ void RfbState::readAlphaCursor(devices::Size size, int hotX, int hotY) {
   std::array<std::uint8_t, 4> encoding{};
   read(encoding);
   if (bigEndian(encoding) != 0 || size.width > kMaxCursorExtent || size.height > kMaxCursorExtent) {
-    throw SessionError(CloseKind::kProtocol, handshake.where + " sent a pointer shape that cannot be read");
+    throw SessionError(CloseKind::kProtocol, where + " sent a pointer shape that cannot be read");
   }
   std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(size.area()));
   read(rgba);

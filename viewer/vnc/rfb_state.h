@@ -6,12 +6,14 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "viewer/tiles/region.h"
 #include "viewer/vnc/rfb_failure.h"
 #include "viewer/vnc/rfb_log.h"
 #include "viewer/vnc/session.h"
+#include "viewer/vnc/tls_session.h"
 
 struct _rfbClient;  // NOLINT(bugprone-reserved-identifier): libvncclient's name
 
@@ -47,7 +49,10 @@ struct RfbState {
 
   RfbLog log;
   const SessionOptions& options;
-  HandshakeState handshake;
+  std::string where;  // describeServer()
+  std::string desktopName;
+  ConnectionSecurity security;
+  std::unique_ptr<TlsSession> tls;  // libvncclient reads and writes through it; null: in the clear
   _rfbClient* client = nullptr;
   std::unique_ptr<std::uint8_t, Free> pixels;
   devices::Size pixelsSize;
@@ -61,8 +66,5 @@ struct RfbState {
   std::optional<SessionError> failure;
   std::vector<SessionEvent> events;
 };
-
-/// An unsigned number in network order.
-[[nodiscard]] std::uint32_t bigEndian(std::span<const std::uint8_t> bytes);
 
 }  // namespace pixelflex::viewer

@@ -121,7 +121,7 @@ class Session::Worker {
     everConnected_ = true;
     lost_ = false;
     desk_.open();
-    desk_.post({Connected{client.desktopName(), client.desktop()}});
+    desk_.post({Connected{client.desktopName(), client.desktop(), client.security()}});
   }
 
   // Sleeps until the server speaks (true) or something is to be done for it.

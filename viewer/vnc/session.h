@@ -27,6 +27,9 @@ struct SessionOptions {
   ServerAddress server;
   /// For servers that ask for one; VNC's own scheme looks at its first eight characters only.
   std::optional<std::string> password;
+  /// For servers that ask who it is; never sent without encryption.
+  std::string user;
+  SecurityOptions security;
   /// Drops pointer, keys and clipboard before they reach the server.
   bool viewOnly = false;
   /// Keeps other viewers connected.

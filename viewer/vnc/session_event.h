@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "devices/image/size.h"
+#include "viewer/vnc/security.h"
 
 namespace pixelflex::viewer {
 
@@ -13,6 +14,7 @@ namespace pixelflex::viewer {
 struct Connected {
   std::string name;  // as the server calls its desktop, UTF-8
   devices::Size size;
+  ConnectionSecurity security;
   bool operator==(const Connected&) const = default;
 };
 
@@ -48,7 +50,9 @@ struct Clipboard {
 enum class CloseKind {
   kUnreachable,     // no such host, nothing listens there, no answer
   kNotVnc,          // something answers, but not a VNC server
-  kAuthentication,  // a password is needed or wrong, or no common security type
+  kPasswordNeeded,  // the server asks for a password or a user that were not given
+  kAuthentication,  // the password is wrong, or the server will not have us
+  kUntrusted,       // the connection or the server's certificate is less than what is required
   kTooLarge,        // the desktop's size is not supported
   kLost,            // the server or the network ended the connection
   kProtocol,        // the server sent something that makes no sense
