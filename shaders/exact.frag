@@ -4,6 +4,7 @@ uniform sampler2DArray desktop;
 uniform ivec2 desktopSize;
 uniform ivec3 tiling;   // tiles in a row, stride, apron
 uniform ivec2 exactAt;  // the desktop pixel shown by the screen's top-left pixel
+uniform float brightness;  // 1: as it is
 
 layout(location = 0) out vec4 device;
 
@@ -15,7 +16,7 @@ void main() {
   }
   ivec2 tile = ivec2((vec2(pixel) + 0.5) / float(tiling.y));
   ivec3 texel = ivec3(pixel - tile * tiling.y + tiling.z, tile.y * tiling.x + tile.x);
-  vec3 code = withCursorTexel(texelFetch(desktop, texel, 0).rgb, pixel);
+  vec3 code = withCursorTexel(texelFetch(desktop, texel, 0).rgb, pixel) * brightness;
 #if TEN_BITS
   code = rounded(code);
 #endif

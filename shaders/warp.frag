@@ -7,6 +7,7 @@ flat in ivec4 held;
 
 layout(location = 0) out vec4 device;
 
+uniform float brightness;  // of the desktop's light, 1: as it is
 #if COLOUR
 uniform mat3 colour;
 #endif
@@ -51,7 +52,7 @@ void main() {
 #if MEASURE
   device = vec4(filtered(texel, held, layer), 1.0);
 #else
-  vec3 value = clamp(deviceFromLight(matched(lightAt(texel))), 0.0, 1.0);
+  vec3 value = clamp(deviceFromLight(matched(brightness * lightAt(texel))), 0.0, 1.0);
 #if DITHER
   value = dithered(value, ivec2(gl_FragCoord.xy));
 #elif TEN_BITS

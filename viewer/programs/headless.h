@@ -5,7 +5,8 @@
 
 namespace pixelflex::viewer {
 
-/// Shows the wall in no window: until the screenshot is written, or until SIGINT or SIGTERM. Returns the exit status.
+/// Shows the wall in no window: until the screenshot is written, or until SIGINT, SIGTERM or SIGHUP. Returns the exit
+/// status.
 int runHeadless(const ViewOptions& options, const WallPlan& wall);
 
 /// DIR/<projector>.png, exactly what each projector is sent (16-bit PNG with the highest code as 65535 when `depth` is

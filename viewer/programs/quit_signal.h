@@ -6,8 +6,9 @@
 
 namespace pixelflex::viewer {
 
-/// Turns SIGINT and SIGTERM into a flag and a call. Make it before any other thread: the signals are blocked in every
-/// thread that starts later, and a thread of its own waits for them. One at a time.
+/// Turns SIGINT, SIGTERM and, unless it is ignored as nohup does, SIGHUP into a flag and a call. Make it before any
+/// other thread: the signals are blocked in every thread that starts later, and a thread of its own waits for them. One
+/// at a time.
 class QuitSignal {
  public:
   /// `onQuit` is called from that thread.

@@ -5,7 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <stdexcept>
+#include <string>
 
 #include "calib/store/store.h"
 #include "viewer/programs/headless.h"
@@ -14,6 +16,11 @@
 
 namespace pixelflex::viewer {
 namespace {
+
+const std::map<std::string, Retry> kRetries{
+    {"never", Retry::kNever}, {"lost", Retry::kLost}, {"always", Retry::kAlways}};
+const std::map<std::string, WhenLost> kWhenLost{
+    {"dim", WhenLost::kDim}, {"mark", WhenLost::kMark}, {"keep", WhenLost::kKeep}};
 
 int view(const ViewOptions& options) {
   const WallPlan wall(options.wall, calib::loadWall(options.wall), calib::loadCalibration(options.wall),
@@ -46,6 +53,14 @@ int main(int argc, char** argv) {
                  "bits for each colour that the projectors are sent, 8 or 10; with 10 their screenshots are 16-bit PNG")
       ->check(CLI::IsMember({8, 10}))
       ->capture_default_str();
+  app.add_option(
+         "--retry", options.retry,
+         "whether to wait for a server that is gone: lost, once it was there; always, also at the start; never. "
+         "never is usual with --screenshot, else lost")
+      ->transform(CLI::CheckedTransformer(pixelflex::viewer::kRetries));
+  app.add_option("--when-lost", options.whenLost,
+                 "the last picture of a server that is gone: dim, mark (with a sign) or keep as it is; else dim")
+      ->transform(CLI::CheckedTransformer(pixelflex::viewer::kWhenLost));
   app.add_flag("--stats", options.stats, "print what was uploaded and drawn, and how long it took");
   try {
     app.parse(argc, argv);

@@ -5,9 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "viewer/vnc/server_address.h"
+#include "viewer/vnc/session.h"
 
 namespace pixelflex::viewer {
+
+/// What the wall shows of a server that is gone: its last picture in any case.
+enum class WhenLost { kDim, kMark, kKeep };
 
 /// The command line of `pixelflex view`.
 struct ViewOptions {
@@ -19,6 +22,8 @@ struct ViewOptions {
   std::vector<std::string> projectors;  // empty: all
   bool viewOnly = false;
   std::optional<std::string> passwordFile;
+  std::optional<Retry> retry;  // empty: kNever for a screenshot, else kLost
+  WhenLost whenLost = WhenLost::kDim;
   bool stats = false;
   int depth = 8;  // bits for each colour of a projector's picture: 8 or 10
 };

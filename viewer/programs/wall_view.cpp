@@ -25,7 +25,10 @@ std::optional<std::string> readPassword(const ViewOptions& options) {
 }
 
 SessionOptions sessionOptions(const ViewOptions& options) {
-  return {.server = options.server, .password = readPassword(options), .viewOnly = options.viewOnly};
+  return {.server = options.server,
+          .password = readPassword(options),
+          .viewOnly = options.viewOnly,
+          .retry = options.retry.value_or(options.screenshot ? Retry::kNever : Retry::kLost)};
 }
 
 }  // namespace
@@ -34,6 +37,7 @@ WallView::WallView(const ViewOptions& options, const WallPlan& wall, devices::Gl
                    const std::function<void()>& wake)
     : wall_(wall),
       renderer_(context, {.bitsPerColour = options.depth}),
+      picture_(renderer_, options.whenLost),
       belt_(wake),
       session_(sessionOptions(options), belt_, wake) {
   // What a screenshot shows is the desktop, as a screenshot taken on the server does.
@@ -48,6 +52,7 @@ WallView::Step WallView::step() {
     if (batch->completesUpdate) {
       ++updates_;
       hasPicture_ = true;
+      if (lostSince_ && connected_) comeBack();
     }
     belt_.release(batch);
   }
@@ -61,19 +66,37 @@ WallView::Step WallView::step() {
 void WallView::handle(const SessionEvent& event) {
   if (const auto* connected = std::get_if<Connected>(&event)) {
     desktopName_ = connected->name;
-    adopt(connected->size);
+    connected_ = true;
+    // What is shown stays until there is a picture to replace it.
+    if (!hasPicture_) adopt(connected->size);
   } else if (const auto* shape = std::get_if<CursorShape>(&event)) {
     devices::Image8 image;
     if (shape->size.area() > 0) {
       image = devices::Image8(shape->size, 4);
       std::ranges::copy(shape->rgba, image.samples().begin());
     }
-    renderer_.setCursor(image, {shape->hotX, shape->hotY});
+    picture_.setCursor(std::move(image), {shape->hotX, shape->hotY});
   } else if (const auto* moved = std::get_if<CursorMoved>(&event)) {
-    renderer_.moveCursor({moved->x, moved->y});
+    picture_.moveCursor({moved->x, moved->y});
+  } else if (const auto* lost = std::get_if<Lost>(&event)) {
+    lose(lost->message);
   } else if (const auto* closed = std::get_if<Closed>(&event)) {
     throw ViewError(closed->message);
   }
+}
+
+void WallView::lose(const std::string& reason) {
+  connected_ = false;
+  if (lostSince_) return;
+  lostSince_ = Clock::now();
+  fmt::print(stderr, "pixelflex-view: {}; waiting for it to return\n", reason);
+  picture_.lose(desktop_);
+}
+
+void WallView::comeBack() {
+  const auto away = std::chrono::duration<double>(Clock::now() - *std::exchange(lostSince_, std::nullopt));
+  fmt::print(stderr, "pixelflex-view: the desktop is there after {:.1f} s\n", away.count());
+  picture_.comeBack();
 }
 
 void WallView::adopt(devices::Size desktop) {
@@ -85,7 +108,7 @@ void WallView::adopt(devices::Size desktop) {
 }
 
 void WallView::point(glm::ivec2 pointInDesktop, std::uint8_t buttons) {
-  renderer_.moveCursor(pointInDesktop);
+  picture_.moveCursor(pointInDesktop);
   session_.sendPointer(pointInDesktop.x, pointInDesktop.y, buttons);
 }
 

@@ -11,6 +11,7 @@
 #include "devices/display/gl_context.h"
 #include "viewer/plan/pointer_map.h"
 #include "viewer/plan/wall_plan.h"
+#include "viewer/programs/lost_picture.h"
 #include "viewer/programs/view_options.h"
 #include "viewer/renderer/wall_renderer.h"
 #include "viewer/tiles/frame_belt.h"
@@ -18,7 +19,7 @@
 
 namespace pixelflex::viewer {
 
-/// The session ended; what() is the reason for people.
+/// The session ended for good; what() is the reason for people.
 class ViewError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -42,8 +43,8 @@ class WallView {
   /// Takes what has arrived and draws what it touched. Throws ViewError when the session has ended.
   Step step();
 
-  /// At least one whole update has been drawn.
-  [[nodiscard]] bool hasPicture() const { return hasPicture_; }
+  /// At least one whole update has been drawn, and the server is there.
+  [[nodiscard]] bool hasPicture() const { return hasPicture_ && !lostSince_; }
   [[nodiscard]] Clock::time_point lastChange() const { return lastChange_; }
   [[nodiscard]] std::uint64_t updates() const { return updates_; }
   [[nodiscard]] const std::string& desktopName() const { return desktopName_; }
@@ -61,16 +62,21 @@ class WallView {
 
  private:
   void handle(const SessionEvent& event);
+  void lose(const std::string& reason);
+  void comeBack();
   void adopt(devices::Size desktop);
 
   const WallPlan& wall_;
   WallRenderer renderer_;
+  LostPicture picture_;
   FrameBelt belt_;
   Session session_;
   std::optional<PointerMap> pointerMap_;
   devices::Size desktop_;
   std::string desktopName_;
   bool hasPicture_ = false;
+  std::optional<Clock::time_point> lostSince_;
+  bool connected_ = false;
   bool plansChanged_ = false;
   std::uint64_t updates_ = 0;
   Clock::time_point lastChange_ = Clock::now();

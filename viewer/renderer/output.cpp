@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "viewer/renderer/one_to_one.h"
@@ -115,6 +116,11 @@ void Output::markAll() {
   marked_.add(boxOf(resolution_));
 }
 
+void Output::setBrightness(float brightness) {
+  brightness_ = brightness;
+  markAll();
+}
+
 std::uint64_t Output::draw(DesktopTexture& desktop, const Cursor& cursor, WarpPrograms& programs) {
   if (variant_.exact) {
     for (int layer = 0; layer < desktop.layout().count(); ++layer) {
@@ -169,6 +175,8 @@ void Output::setUniforms(const devices::GlProgram& program, const DesktopTexture
   program.set("desktopSize", glm::ivec2(desktop_.width, desktop_.height));
   program.set("tiling", glm::ivec3(desktop.layout().columns(), kTileStride, kTileApron));
   program.set("exactAt", exactAt_);
+  // The exact shader knows codes only, and those of most desktops are close to this power of light.
+  program.set("brightness", variant_.exact ? std::pow(brightness_, 1.0F / 2.2F) : brightness_);
 }
 
 void Output::drawMesh(const Box& box) const {

@@ -31,6 +31,9 @@ class Output {
   void markAll();
   [[nodiscard]] bool marked() const { return !marked_.empty(); }
 
+  /// How much of the desktop's light is shown, 0 to 1, from the next draw() on. Marks the whole frame.
+  void setBrightness(float brightness);
+
   /// Draws the marked parts and nothing else; the number of pixels drawn.
   std::uint64_t draw(DesktopTexture& desktop, const Cursor& cursor, WarpPrograms& programs);
 
@@ -60,6 +63,7 @@ class Output {
   FrameFormat format_ = FrameFormat::kRgba8;
   WarpVariant variant_;
   glm::ivec2 exactAt_{0, 0};
+  float brightness_ = 1;
   OutputLight light_;
   MeshFootprint footprint_;
   Region marked_;

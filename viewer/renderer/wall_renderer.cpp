@@ -68,7 +68,7 @@ bool WallRenderer::setPlans(const std::vector<OutputPlan>& plans) {
                                       plan.desktop.width, plan.desktop.height, plans.front().name, size.width,
                                       size.height));
     }
-    outputs.emplace_back(plan, layout, formatOf(options_));
+    outputs.emplace_back(plan, layout, formatOf(options_)).setBrightness(brightness_);
   }
   const bool lost = !desktop_ || desktop_->layout().desktop() != size;
   if (lost) {
@@ -128,6 +128,12 @@ void WallRenderer::moveCursor(glm::ivec2 position) {
 
 void WallRenderer::showCursor(bool shown) {
   changeCursor([&] { cursor_.show(shown); });
+}
+
+void WallRenderer::setBrightness(float brightness) {
+  if (brightness == brightness_) return;
+  brightness_ = brightness;
+  for (auto& output : outputs_) output.setBrightness(brightness);
 }
 
 void WallRenderer::markAll() {

@@ -60,6 +60,9 @@ class WallRenderer {
   void moveCursor(glm::ivec2 position);
   void showCursor(bool shown);
 
+  /// How much of the desktop's light is shown, 0 to 1; 1 leaves every pixel as it is. Black levels stay.
+  void setBrightness(float brightness);
+
   void markAll();
   /// Something is marked and no update is half way in: draw() would draw.
   [[nodiscard]] bool needsDraw() const;
@@ -96,6 +99,7 @@ class WallRenderer {
   std::optional<DesktopTexture> desktop_;
   std::vector<Output> outputs_;
   Cursor cursor_;
+  float brightness_ = 1;
   bool updateOpen_ = false;
   RenderStats stats_;
   std::uint64_t bytesOfOldDesktops_ = 0;
