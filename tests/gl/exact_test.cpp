@@ -1,6 +1,8 @@
 // Flat screens: what the renderer shows is the desktop, bit for bit or to a rounding.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "devices/display/gl_context.h"
 #include "tests/gl/plans.h"
 #include "tests/support_image/image_near.h"
@@ -51,6 +53,28 @@ TEST_F(ExactTest, CopiesBitForBit) {
   EXPECT_EQ(renderer.draw(), std::vector<std::size_t>{0});
   EXPECT_TRUE(imageNear(renderer.readOutput(0), desktop, 0, "exact-output"));
   EXPECT_TRUE(imageNear(renderer.readDesktop(), desktop, 0, "exact-desktop"));
+}
+
+TEST_F(ExactTest, IsDimmedAsAskedAndBitForBitAgain) {
+  const auto desktop = testing::testDesktop({300, 200});
+  OutputPlan warped = testing::planOf("b", testing::homographyMap({75, 53}, desktop.size()), {75, 53}, desktop.size());
+  WallRenderer renderer(context_);
+  renderer.setPlans({exactPlan("a", desktop.size(), desktop.size(), {0, 0}), warped});
+  renderer.upload(testing::wholeBatch(desktop));
+  renderer.draw();
+  const auto before = renderer.readOutput(1);
+  renderer.setBrightness(0.25F);
+  EXPECT_EQ(renderer.draw(), (std::vector<std::size_t>{0, 1}));
+  Image8 dimmed = desktop;
+  for (auto& sample : dimmed.samples()) {
+    sample = static_cast<std::uint8_t>(std::lround(sample * std::pow(0.25, 1 / 2.2)));
+  }
+  EXPECT_TRUE(imageNear(renderer.readOutput(0), dimmed, 1, "dimmed"));
+  EXPECT_FALSE(renderer.readOutput(1) == before);
+  renderer.setBrightness(1);
+  EXPECT_EQ(renderer.draw(), (std::vector<std::size_t>{0, 1}));
+  EXPECT_TRUE(imageNear(renderer.readOutput(0), desktop, 0, "undimmed"));
+  EXPECT_TRUE(imageNear(renderer.readOutput(1), before, 0, "undimmed-warped"));
 }
 
 TEST_F(ExactTest, CopiesBitForBitAcrossTileBordersAndBlackOutside) {
