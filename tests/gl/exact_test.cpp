@@ -57,7 +57,8 @@ TEST_F(ExactTest, CopiesBitForBit) {
 
 TEST_F(ExactTest, IsDimmedAsAskedAndBitForBitAgain) {
   const auto desktop = testing::testDesktop({300, 200});
-  OutputPlan warped = testing::planOf("b", testing::homographyMap({75, 53}, desktop.size()), {75, 53}, desktop.size());
+  OutputPlan warped =
+      testing::planOf("b", testing::homographyMap({75, 53}, desktop.size()), {75, 53}, desktop.size(), 2, 1);
   WallRenderer renderer(context_);
   renderer.setPlans({exactPlan("a", desktop.size(), desktop.size(), {0, 0}), warped});
   renderer.upload(testing::wholeBatch(desktop));
