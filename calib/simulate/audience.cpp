@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calib/simulate/light_map.h"
 #include "calib/simulate/parallel.h"
 #include "calib/simulate/room_raster.h"
 
@@ -62,19 +61,32 @@ Image8 develop(const ImageF& radiance, const RoomRaster& room, double ambient, d
 
 }  // namespace
 
-Image8 composeAudience(const Stage& stage, const std::vector<Image8>& frames, glm::dvec2 topLeft,
-                       glm::dvec2 bottomRight, devices::Size size, double white) {
+AudienceLight::AudienceLight(const Stage& stage, glm::dvec2 topLeft, glm::dvec2 bottomRight, devices::Size size)
+    : stage_(stage), topLeft_(topLeft), bottomRight_(bottomRight), size_(size) {
   const AudienceView view(topLeft, bottomRight, size);
-  ImageF radiance(size, 3);
-  for (std::size_t i = 0; i < stage.lights().size(); ++i) {
-    const auto& light = stage.lights()[i];
+  for (const auto& light : stage.lights()) maps_.emplace_back(view, light, stage.unit(), kLatticeStep);
+}
+
+bool AudienceLight::looksAt(glm::dvec2 topLeft, glm::dvec2 bottomRight, devices::Size size) const {
+  return topLeft == topLeft_ && bottomRight == bottomRight_ && size == size_;
+}
+
+ImageF AudienceLight::of(const std::vector<Image8>& frames) const {
+  ImageF radiance(size_, 3);
+  for (std::size_t i = 0; i < maps_.size(); ++i) {
+    const auto& spec = stage_.lights()[i].spec();
     const bool black = i >= frames.size() || frames[i].empty();
-    const Image8 frame = black ? Image8(light.spec().resolution, 1) : frames[i];
-    addProjector(radiance, LightMap(view, light, stage.unit(), kLatticeStep),
-                 LightImage(light.spec(), frame, LightImage::Leak::kWith));
+    const Image8 frame = black ? Image8(spec.resolution, 1) : frames[i];
+    addProjector(radiance, maps_[i], LightImage(spec, frame, LightImage::Leak::kWith));
   }
+  return radiance;
+}
+
+Image8 developAudience(const Stage& stage, const ImageF& light, glm::dvec2 topLeft, glm::dvec2 bottomRight,
+                       double white) {
+  const AudienceView view(topLeft, bottomRight, light.size());
   const double ambient = stage.rig().room.dark * stage.typicalWhite();
-  return develop(radiance, lookAtRoom(stage.rig(), view), ambient, white > 0 ? white : stage.brightestWhite());
+  return develop(light, lookAtRoom(stage.rig(), view), ambient, white > 0 ? white : stage.brightestWhite());
 }
 
 }  // namespace pixelflex::calib

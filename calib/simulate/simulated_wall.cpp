@@ -14,6 +14,7 @@ namespace pixelflex::calib {
 namespace {
 
 using devices::Image8;
+using devices::ImageF;
 using devices::Scene;
 using devices::Size;
 
@@ -139,6 +140,7 @@ struct SimulatedWall::Impl {
   StudioCamera camera;
   StudioPerson person;
   std::vector<std::unique_ptr<StudioProjector>> projectors;
+  std::unique_ptr<AudienceLight> audience;  // of the last call
 };
 
 SimulatedWall::SimulatedWall(Rig rig) : impl_(std::make_unique<Impl>(std::move(rig))) {}
@@ -184,12 +186,22 @@ double SimulatedWall::radiance(std::size_t index, glm::dvec2 pointInProjector) c
   return wall ? impl_->stage.lights().at(index).illuminance(*wall) / impl_->stage.unit() : 0;
 }
 
-Image8 SimulatedWall::audience(const std::vector<Image8>& frames, glm::dvec2 topLeft, glm::dvec2 bottomRight, Size size,
-                               double white) const {
+ImageF SimulatedWall::audienceLight(const std::vector<Image8>& frames, glm::dvec2 topLeft, glm::dvec2 bottomRight,
+                                    Size size) const {
   for (std::size_t i = 0; i < frames.size() && i < projectorCount(); ++i) {
     if (!frames[i].empty()) checkFrame(rig().projectors[i], frames[i]);
   }
-  return composeAudience(impl_->stage, frames, topLeft, bottomRight, size, white);
+  auto& audience = impl_->audience;
+  if (!audience || !audience->looksAt(topLeft, bottomRight, size)) {
+    audience = std::make_unique<AudienceLight>(impl_->stage, topLeft, bottomRight, size);
+  }
+  return audience->of(frames);
+}
+
+Image8 SimulatedWall::audience(const std::vector<Image8>& frames, glm::dvec2 topLeft, glm::dvec2 bottomRight, Size size,
+                               double white) const {
+  const ImageF light = audienceLight(frames, topLeft, bottomRight, size);
+  return developAudience(impl_->stage, light, topLeft, bottomRight, white);
 }
 
 }  // namespace pixelflex::calib

@@ -63,6 +63,13 @@ class SimulatedWall {
   /// Radiance on the wall of a projector's full white at a point of its frame, relative to the rig's brightest.
   [[nodiscard]] double radiance(std::size_t index, glm::dvec2 pointInProjector) const;
 
+  /// The light that comes from a rectangle of the wall to somebody straight in front of it, for measuring: relative
+  /// radiance (1: the rig's brightest) in red, green and blue, its mean over each pixel, of a white screen without
+  /// markers or ambient light. All projectors show `frames` (same order; an empty or missing image is black, which
+  /// leaks). The next call for the same rectangle and size is quicker.
+  [[nodiscard]] devices::ImageF audienceLight(const std::vector<devices::Image8>& frames, glm::dvec2 topLeft,
+                                              glm::dvec2 bottomRight, devices::Size size) const;
+
   /// What the audience sees, straight on, sRGB: the wall rectangle from topLeft to bottomRight at `size`, all
   /// projectors showing `frames` (same order; an empty image is black). Exposed so that `white` (relative radiance;
   /// 0: chosen from the rig) becomes 255.

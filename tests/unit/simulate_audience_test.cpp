@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -60,6 +61,40 @@ TEST(SimulateAudience, ShowsTheLightThatTheGroundTruthGives) {
     }
   }
   EXPECT_GT(checked, 200);
+}
+
+TEST(SimulateAudience, MeasuresTheLightOfEveryChannelExactly) {
+  Rig rig = miniRig(3);  // with markers, ambient light and leak: only the last may count
+  const SimulatedWall wall(rig);
+  const Size frame = rig.projectors[0].resolution;
+  const std::vector<Image8> frames{plain(frame, 12), {}};
+  const Size size{1000, 660};
+  const devices::ImageF light = wall.audienceLight(frames, {0, 0}, rig.screenSize, size);
+  EXPECT_EQ(wall.audienceLight(frames, {0, 0}, rig.screenSize, size), light);
+  int checked = 0;
+  for (int y = 5; y < size.height; y += 23) {
+    for (int x = 5; x < size.width; x += 23) {
+      const glm::dvec2 point = glm::dvec2(x + 0.5, y + 0.5) / glm::dvec2(size.width, size.height) * rig.screenSize;
+      std::array<double, 3> expected{};
+      bool nearEdge = false;
+      for (std::size_t i = 0; i < 2; ++i) {
+        const glm::dvec2 pixel = wall.projectorFromWall(i, point).value();
+        const glm::dvec2 inside = glm::min(pixel, glm::dvec2(frame.width, frame.height) - pixel);
+        const double depth = std::min(inside.x, inside.y);
+        nearEdge = nearEdge || std::abs(depth) < 4;
+        for (int c = 0; depth > 0 && c < 3; ++c) {
+          expected.at(static_cast<std::size_t>(c)) +=
+              wall.radiance(i, pixel) * wall.light(i, c, i == 0 ? 12 / 255.0 : 0);
+        }
+      }
+      for (int c = 0; !nearEdge && c < 3; ++c) {
+        const double e = expected.at(static_cast<std::size_t>(c));
+        EXPECT_NEAR(light.at(x, y, c), e, 1e-3 * e) << x << ", " << y;
+        checked += e > 0 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(checked, 600);
 }
 
 TEST(SimulateAudience, PutsAPixelInItsPlace) {
