@@ -1,7 +1,8 @@
 # Registration against ground truth through the real renderer.
 target_sources(pixelflex_test_calibration
-  PRIVATE support_calibration/coordinate_desktop.cpp
-  PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES support_calibration/coordinate_desktop.h)
+  PRIVATE support_calibration/coordinate_desktop.cpp support_calibration/light_session.cpp
+  PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}
+    FILES support_calibration/coordinate_desktop.h support_calibration/light_session.h)
 target_link_libraries(pixelflex_test_calibration PUBLIC pixelflex_plan PRIVATE pixelflex_renderer)
 
 add_executable(accuracy_table accuracy/accuracy_table.cpp accuracy/accuracy_rigs.cpp accuracy/report_pipeline.cpp)
@@ -15,6 +16,17 @@ add_test(NAME accuracy_inset COMMAND accuracy_table --rigs inset)
 set_tests_properties(accuracy_pair accuracy_inset PROPERTIES LABELS "accuracy;gl" TIMEOUT 300 ENVIRONMENT "LIBGL_ALWAYS_SOFTWARE=1")
 
 # Light of the wall, photographed again by the audience.
+pixelflex_library(pixelflex_test_light
+  HEADERS accuracy/light_figures.h accuracy/light_measurement.h accuracy/light_measures.h accuracy/light_rigs.h
+    accuracy/report_light.h accuracy/shown_wall.h accuracy/text_likeness.h accuracy/wall_view.h
+  SOURCES accuracy/light_figures.cpp accuracy/light_measurement.cpp accuracy/light_measures.cpp accuracy/light_rigs.cpp
+    accuracy/report_light.cpp accuracy/shown_wall.cpp accuracy/text_likeness.cpp accuracy/wall_view.cpp gl/plans.cpp
+  PUBLIC pixelflex_test_calibration pixelflex_test_support pixelflex_plan pixelflex_renderer
+  PRIVATE pixelflex_photometric fmt::fmt)
+target_compile_definitions(pixelflex_test_light PRIVATE PIXELFLEX_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+add_executable(light_table accuracy/light_table.cpp)
+target_link_libraries(light_table PRIVATE pixelflex_options pixelflex_test_light CLI11::CLI11 fmt::fmt)
+set_target_properties(light_table PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
 pixelflex_test(light_match_test LABEL gl SOURCES accuracy/light_test.cpp gl/plans.cpp
   LINK pixelflex_test_calibration pixelflex_test_support pixelflex_plan pixelflex_renderer)
 

@@ -12,8 +12,11 @@ CalibratedRig calibrateRig(SimulatedWall& room, const std::filesystem::path& fol
   result.wall.blend = blend;
   std::vector<devices::Projector*> projectors;
   for (std::size_t i = 0; i < room.projectorCount(); ++i) projectors.push_back(&room.projector(i));
-  for (const auto& projector : room.rig().projectors) {
-    devices::writeFileAtomically(folder / "readings" / (projector.name + ".csv"), readingsOfProjector(projector, 1));
+  for (std::size_t i = 0; i < room.projectorCount(); ++i) {
+    const auto& projector = room.rig().projectors[i];
+    const auto noise = room.rig().seed + static_cast<std::uint32_t>(i);  // every projector's own
+    devices::writeFileAtomically(folder / "readings" / (projector.name + ".csv"),
+                                 readingsOfProjector(projector, noise));
   }
   saveWall(folder, result.wall);
   LivePhotographs photographs(room.camera(), projectors, room.person(), folder / "captures", "test",

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+
+#include "calib/simulate/simulated_wall.h"
+#include "tests/support_calibration/calibrated_rig.h"
+
+namespace pixelflex::calib {
+
+/// A rig's wall whose geometry is calibrated once, to match its light in one way after another from the same
+/// photographs.
+class LightSession {
+ public:
+  /// Calibrates all but the light into `folder`, with blobs. The room must outlive this. Throws std::runtime_error
+  /// unless every projector could be calibrated.
+  LightSession(SimulatedWall& room, std::filesystem::path folder);
+
+  /// Blend and response again. Files of the light before are overwritten: read them first.
+  void match(const Blend& blend);
+
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  [[nodiscard]] const Wall& wall() const { return rig_.wall; }
+  [[nodiscard]] const Calibration& calibration() const { return rig_.calibration; }
+
+ private:
+  std::filesystem::path folder_;
+  CalibratedRig rig_;
+};
+
+}  // namespace pixelflex::calib
