@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "calib/photometric/gamut.h"
 
@@ -131,7 +132,9 @@ std::vector<SeenLight> samplesOf(const LightField& field, std::size_t projector,
     for (int c = 0; c < 3; ++c) light += kCameraLuminance[static_cast<std::size_t>(c)] * field.light.at(x, y, c);
     const glm::dvec2 f = field.inFrame(node);
     const double density = mapping.density({f.x * size.width, f.y * size.height});
-    if (light > 0) samples.push_back({projector, field.inCamera[node], f, light, density});
+    const glm::dvec2 offMiddle =
+        (2.0 * f - 1.0) * glm::dvec2(size.width, size.height) / glm::length(glm::dvec2(size.width, size.height));
+    if (light > 0) samples.push_back({projector, field.inCamera[node], offMiddle, light, density});
   }
   return samples;
 }
