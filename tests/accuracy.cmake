@@ -43,3 +43,4 @@ if(EXISTS ${PIXELFLEX_OPENCV_PHOTOS}/left01.jpg)
 endif()
 
 pixelflex_test(rig_layouts_test LABEL unit SOURCES accuracy/rig_layouts_test.cpp LINK pixelflex_simulate)
+pixelflex_test(measured_light_test LABEL unit SOURCES accuracy/measured_light_test.cpp LINK pixelflex_test_calibration pixelflex_test_support)

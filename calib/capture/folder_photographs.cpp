@@ -124,6 +124,10 @@ bool FolderPhotographs::hasProjector(const std::string& projector) {
   return fs::is_directory(here() / projector);
 }
 
+bool FolderPhotographs::hasPattern(const std::string& projector, const ProjectedPattern& pattern) {
+  return findPhoto(here() / patternPath(projector, pattern)).has_value();
+}
+
 devices::Image8 FolderPhotographs::pattern(const std::string& projector, const ProjectedPattern& pattern) {
   const fs::path file = find(patternPath(projector, pattern));
   return read(file, projector / file.filename());

@@ -28,6 +28,7 @@ class FolderPhotographs : public Photographs {
   [[nodiscard]] bool hasFiducials() override;
   [[nodiscard]] Named fiducials() override;
   [[nodiscard]] bool hasProjector(const std::string& projector) override;
+  [[nodiscard]] bool hasPattern(const std::string& projector, const ProjectedPattern& pattern) override;
   [[nodiscard]] devices::Image8 pattern(const std::string& projector, const ProjectedPattern& pattern) override;
   [[nodiscard]] std::string stamp(const std::string& kind) const override;
   void keep() override;

@@ -43,12 +43,12 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text.replace(text.find(what), what.size(), by);
 }
 
-std::string instructions(const std::vector<std::pair<std::string, devices::Size>>& projectors, Method method) {
+std::string instructions(const std::vector<ProjectorPatterns>& projectors, Method method) {
   const bool dense = method == Method::kDense;
   std::string text = replaced(kBefore, "WHITE", dense ? "dense-white" : "white");
-  for (const auto& [name, size] : projectors) {
+  for (const auto& [name, size, patterns] : projectors) {
     text += "   " + name + " (" + std::to_string(size.width) + "x" + std::to_string(size.height) + ")\n";
-    for (const auto& pattern : patternsOf(method, size)) {
+    for (const auto& pattern : patterns) {
       text += "     " + patternPath(name, pattern).string() + ".png    " + pattern.description + "\n";
     }
   }
@@ -61,10 +61,10 @@ std::filesystem::path patternPath(const std::string& projector, const ProjectedP
   return std::filesystem::path(projector) / pattern.name;
 }
 
-void writePatterns(const std::filesystem::path& folder,
-                   const std::vector<std::pair<std::string, devices::Size>>& projectors, Method method) {
-  for (const auto& [name, size] : projectors) {
-    for (const auto& pattern : patternsOf(method, size)) {
+void writePatterns(const std::filesystem::path& folder, const std::vector<ProjectorPatterns>& projectors,
+                   Method method) {
+  for (const auto& [name, size, patterns] : projectors) {
+    for (const auto& pattern : patterns) {
       writePng(folder / (patternPath(name, pattern).string() + ".png"), pattern.render());
     }
   }

@@ -60,6 +60,10 @@ class Photographs {
 
   /// Whether anything was photographed of this projector at all.
   [[nodiscard]] virtual bool hasProjector(const std::string& projector) = 0;
+  /// Whether this photograph can be had: for what a calibration can do without.
+  [[nodiscard]] virtual bool hasPattern(const std::string& projector, const ProjectedPattern& /*pattern*/) {
+    return hasProjector(projector);
+  }
   /// One pattern on this projector, every other one black.
   [[nodiscard]] virtual devices::Image8 pattern(const std::string& projector, const ProjectedPattern& pattern) = 0;
 
@@ -73,9 +77,15 @@ class Photographs {
 /// Relative path of a pattern's photograph without its ending: "p1/bit3".
 [[nodiscard]] std::filesystem::path patternPath(const std::string& projector, const ProjectedPattern& pattern);
 
-/// What each projector must show, and README.txt for the person who photographs it (contract: "Photographs: one rule").
-void writePatterns(const std::filesystem::path& folder,
-                   const std::vector<std::pair<std::string, devices::Size>>& projectors,
+/// What one projector must show.
+struct ProjectorPatterns {
+  std::string name;
+  devices::Size resolution;
+  std::vector<ProjectedPattern> patterns;
+};
+
+/// Writes every picture, and README.txt for the person who photographs them (contract: "Photographs: one rule").
+void writePatterns(const std::filesystem::path& folder, const std::vector<ProjectorPatterns>& projectors,
                    Method method = Method::kBlobs);
 
 }  // namespace pixelflex::calib

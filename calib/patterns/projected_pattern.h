@@ -11,7 +11,7 @@ namespace pixelflex::calib {
 struct ProjectedPattern {
   std::string name;                         // of its file, without the ending
   std::string description;                  // what a person sees in it
-  std::function<devices::Image8()> render;  // of the projector's resolution, one channel of device codes
+  std::function<devices::Image8()> render;  // of the projector's resolution, one or three channels of device codes
 };
 
 }  // namespace pixelflex::calib

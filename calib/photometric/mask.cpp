@@ -4,9 +4,12 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <glm/common.hpp>
+#include <numeric>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "calib/geometry/footprint.h"
 
@@ -38,6 +41,72 @@ bool meet(const Box& a, const Box& b) {
   return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
 }
 
+/// What a projector wants of a wall point.
+struct Claim {
+  int layer = 0;      // 0 wins over 1 and so on
+  double weight = 0;  // of equation 7: a * p^n
+  double cover = 0;   // 0 at its border, 1 from the feather's width on
+};
+
+/// Smooth steps of the distances to the four edges, multiplied.
+double featherOf(glm::dvec2 p, devices::Size frame, double width) {
+  return smoothStep(p.x / width) * smoothStep((frame.width - p.x) / width) * smoothStep(p.y / width) *
+         smoothStep((frame.height - p.y) / width);
+}
+
+class Priorities {
+ public:
+  Priorities(std::span<const double> densities, const MaskRules& rules)
+      : feather_(rules.priorityFeather), layers_(densities.size(), 0) {
+    std::vector<std::size_t> order(densities.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, std::ranges::greater(), [&](std::size_t i) { return densities[i]; });
+    for (std::size_t k = 1; k < order.size() && feather_ > 0; ++k) {
+      const bool apart = densities[order[k - 1]] > kLayerRatio * densities[order[k]];
+      layers_[order[k]] = layers_[order[k - 1]] + (apart ? 1 : 0);
+    }
+    // Only ratios matter: dividing keeps p^n near one.
+    for (const double p : densities) factors_.push_back(std::pow(p / densities[0], rules.densityExponent));
+  }
+
+  [[nodiscard]] Claim claim(std::size_t i, glm::dvec2 p, devices::Size frame) const {
+    return {layers_[i], edgeWeight(p, frame) * factors_[i], feather_ > 0 ? featherOf(p, frame, feather_) : 0};
+  }
+
+  /// Of all that reach a point. With layers: what the layers above leave, times the cover of the own one, times the
+  /// share within it, over what all layers together take; the last one may leave nothing dark.
+  [[nodiscard]] double shareOf(std::size_t own, const std::vector<Claim>& claims) const {
+    const int layer = claims[own].layer;
+    double weights = 0;
+    for (const Claim& claim : claims) weights += claim.layer == layer ? claim.weight : 0;
+    if (weights <= 0) return 0;
+    const double within = claims[own].weight / weights;
+    if (feather_ <= 0) return within;
+    double left = 1;
+    double mine = 0;
+    double taken = 0;
+    const int lowest = std::ranges::max(claims, {}, &Claim::layer).layer;
+    for (int l = 0; l <= lowest; ++l) {
+      const double here = left * coverOf(l, claims);
+      if (l == layer) mine = here;
+      taken += here;
+      left -= here;
+    }
+    return taken > 0 ? within * mine / taken : 0;
+  }
+
+ private:
+  static double coverOf(int layer, const std::vector<Claim>& claims) {
+    double open = 1;
+    for (const Claim& claim : claims) open *= claim.layer == layer ? 1 - claim.cover : 1;
+    return 1 - open;
+  }
+
+  double feather_;
+  std::vector<int> layers_;
+  std::vector<double> factors_;
+};
+
 constexpr int kBlock = 16;  // pixels
 
 /// Pixels [left, right) x [top, bottom) of a frame.
@@ -49,13 +118,11 @@ struct Block {
 class MaskPainter {
  public:
   MaskPainter(std::size_t own, std::span<const ProjectorMapping> projectors, std::span<const double> densities,
-              double exponent, devices::Image16& mask)
-      : own_(projectors[own]), mask_(mask) {
-    const double reference = densities[own];  // only ratios matter: keeps p^n near one
-    ownPriority_ = std::pow(densities[own] / reference, exponent);
+              const MaskRules& rules, devices::Image16& mask)
+      : own_(projectors[own]), priorities_(densities, rules), ownIndex_(own), mask_(mask) {
     const Box ownArea = boxOf(footprint(own_));
     for (std::size_t i = 0; i < projectors.size(); ++i) {
-      const Other other{&projectors[i], std::pow(densities[i] / reference, exponent), boxOf(footprint(projectors[i]))};
+      const Other other{&projectors[i], i, boxOf(footprint(projectors[i]))};
       if (i != own && meet(ownArea, other.area)) others_.push_back(other);
     }
   }
@@ -70,7 +137,7 @@ class MaskPainter {
  private:
   struct Other {
     const ProjectorMapping* mapping;
-    double priority;
+    std::size_t index;
     Box area;  // in wall
   };
 
@@ -116,51 +183,48 @@ class MaskPainter {
   [[nodiscard]] double shareAt(glm::dvec2 pointInOwn, const std::vector<const Other*>& others) const {
     const auto inWall = own_.wallFromProjector(pointInOwn);
     if (!inWall) return 0;
-    const double mine = edgeWeight(pointInOwn, own_.resolution()) * ownPriority_;
-    double sum = mine;
+    std::vector<Claim> claims = {priorities_.claim(ownIndex_, pointInOwn, own_.resolution())};
     for (const Other* other : others) {
       const auto inOther = other->mapping->projectorFromWall(*inWall);
-      if (inOther) sum += edgeWeight(*inOther, other->mapping->resolution()) * other->priority;
+      if (inOther) claims.push_back(priorities_.claim(other->index, *inOther, other->mapping->resolution()));
     }
-    return sum > 0 ? mine / sum : 0;
+    return priorities_.shareOf(0, claims);
   }
 
   const ProjectorMapping& own_;
+  Priorities priorities_;
+  std::size_t ownIndex_;
   devices::Image16& mask_;
-  double ownPriority_ = 1;
   std::vector<Other> others_;
 };
 
 }  // namespace
 
 double edgeWeight(glm::dvec2 p, devices::Size resolution) {
-  const double w = resolution.width;
-  const double h = resolution.height;
-  const double feather = 0.25 * std::min(w, h);
-  return smoothStep(p.x / feather) * smoothStep((w - p.x) / feather) * smoothStep(p.y / feather) *
-         smoothStep((h - p.y) / feather);
+  return featherOf(p, resolution, 0.25 * std::min(resolution.width, resolution.height));
 }
 
 std::vector<double> blendShares(glm::dvec2 pointInWall, std::span<const ProjectorMapping> projectors,
-                                std::span<const double> densities, double densityExponent) {
-  std::vector<double> shares(projectors.size(), 0.0);
-  double sum = 0;
+                                std::span<const double> densities, const MaskRules& rules) {
+  const Priorities priorities(densities, rules);
+  std::vector<Claim> claims;
+  std::vector<std::size_t> claiming;
   for (std::size_t i = 0; i < projectors.size(); ++i) {
     const auto inProjector = projectors[i].projectorFromWall(pointInWall);
     if (!inProjector) continue;
-    shares[i] =
-        edgeWeight(*inProjector, projectors[i].resolution()) * std::pow(densities[i] / densities[0], densityExponent);
-    sum += shares[i];
+    claims.push_back(priorities.claim(i, *inProjector, projectors[i].resolution()));
+    claiming.push_back(i);
   }
-  for (double& share : shares) share = sum > 0 ? share / sum : 0;
+  std::vector<double> shares(projectors.size(), 0.0);
+  for (std::size_t k = 0; k < claims.size(); ++k) shares[claiming[k]] = priorities.shareOf(k, claims);
   return shares;
 }
 
 devices::Image16 alphaMask(std::size_t projector, std::span<const ProjectorMapping> projectors,
-                           std::span<const double> densities, double densityExponent) {
+                           std::span<const double> densities, const MaskRules& rules) {
   assert(projector < projectors.size() && projectors.size() == densities.size());
   devices::Image16 mask(projectors[projector].resolution(), 1);
-  const MaskPainter painter(projector, projectors, densities, densityExponent, mask);
+  const MaskPainter painter(projector, projectors, densities, rules, mask);
   const auto paintRows = [&](int first) {
     for (int y = first * kBlock; y < mask.height(); y += 2 * kBlock) painter.paintBlocks(y);
   };

@@ -51,32 +51,49 @@ double luminance(const ImageF& field, glm::dvec2 inFrame) {
   return sum;
 }
 
-/// White of a projector in the camera's channels: the columns are what each of its channels adds. A camera's channels
-/// are taken to see one projector channel each.
-Matrix3 primariesOf(const ImageF& field) {
-  std::array<double, 3> sum{};
-  for (int y = 0; y < field.height(); ++y) {
-    for (int x = 0; x < field.width(); ++x) {
-      for (int c = 0; c < 3; ++c) sum[static_cast<std::size_t>(c)] += field.at(x, y, c);
+/// The columns are what full red, green and blue add to white, in the camera's channels. Where they were not
+/// photographed, a camera's channels are taken to see one of the projector's each.
+Matrix3 primariesOf(const PhotographedLight& photographed, const ImageF& white) {
+  std::array<double, 3> mean{};
+  double count = 0;
+  for (int y = 0; y < white.height(); ++y) {
+    for (int x = 0; x < white.width(); ++x) {
+      if (white.at(x, y, 1) <= 0) continue;
+      for (int c = 0; c < 3; ++c) mean[static_cast<std::size_t>(c)] += white.at(x, y, c);
+      ++count;
     }
   }
-  return {sum[0], 0, 0, 0, sum[1], 0, 0, 0, sum[2]};
+  Matrix3 primaries = photographed.primaries.value_or(Matrix3{1, 0, 0, 0, 1, 0, 0, 0, 1});
+  for (std::size_t row = 0; row < 3; ++row) {
+    const double sum = primaries[3 * row] + primaries[3 * row + 1] + primaries[3 * row + 2];
+    for (std::size_t c = 0; c < 3; ++c) primaries[3 * row + c] *= mean[row] / std::max(count, 1.0) / sum;
+  }
+  return primaries;
+}
+
+/// Colour samples of 16 bits; 65535 is `brightest`.
+Image16 packed(const ImageF& field, double brightest) {
+  Image16 image(field.size(), 3);
+  for (std::size_t i = 0; i < image.samples().size(); ++i) {
+    image.samples()[i] = static_cast<std::uint16_t>(std::lround(65535 * field.samples()[i] / brightest));
+  }
+  return image;
 }
 
 class LightMatcher {
  public:
   LightMatcher(const Wall& wall, const Calibration& calibration, const std::vector<Image16>& masks,
-               std::vector<LightField> fields)
+               const std::vector<PhotographedLight>& photographed)
       : wall_(wall),
         calibration_(calibration),
         masks_(masks),
         raster_(rasterOf(*calibration.display)),
-        fields_(std::move(fields)) {
+        photographed_(photographed),
+        corrected_(withoutVignetting(calibration, photographed)) {
     for (const auto& projector : calibration.projectors) mappings_.emplace_back(projector);
   }
 
   LightResult match(const std::vector<double>& leak) {
-    divideVignetting();
     matchColour();
     fillMaps(leak);
     const double perDegree = kRasterAcross / kViewDegrees;
@@ -85,6 +102,7 @@ class LightMatcher {
     const LuminanceTarget target = luminanceTarget(maps_, wall_.blend.uniformity.value_or(0), perDegree);
     result.kept = target.kept;
     for (std::size_t i = 0; i < mappings_.size(); ++i) addMatch(i, target, result);
+    addMeasured(leak, result);
     if (black_) {
       result.contrastNative = black_->contrastNative;
       result.contrastEven = black_->contrastEven;
@@ -93,20 +111,11 @@ class LightMatcher {
   }
 
  private:
-  void divideVignetting() {
-    std::vector<SeenLight> samples;
-    for (std::size_t i = 0; i < fields_.size(); ++i) {
-      const auto own = samplesOf(fields_[i], i, mappings_[i]);
-      samples.insert(samples.end(), own.begin(), own.end());
-    }
-    const CameraVignetting vignetting = estimateVignetting(samples, fields_.size(), *calibration_.camera);
-    for (const auto& field : fields_) corrected_.push_back(withoutVignetting(field, vignetting));
-  }
-
   void matchColour() {
-    std::vector<Matrix3> primaries;
-    for (const auto& field : corrected_) primaries.push_back(primariesOf(field));
-    gamut_ = commonGamut(primaries);
+    for (std::size_t i = 0; i < corrected_.size(); ++i) {
+      primaries_.push_back(primariesOf(photographed_[i], corrected_[i]));
+    }
+    gamut_ = commonGamut(primaries_);
   }
 
   void fillMaps(const std::vector<double>& leak) {
@@ -153,7 +162,7 @@ class LightMatcher {
     LightMatch match;
     match.colour = gamut_.projectors[i].colour;
     match.gain = "calibration/" + name + "-gain.png";
-    result.images[*match.gain] = gainMap(mappings_[i], maps_[i].white, target.target, raster_, fields_[i].light.size());
+    result.images[*match.gain] = gainMap(mappings_[i], maps_[i].white, target.target, raster_, corrected_[i].size());
     if (black_) {
       match.black = "calibration/" + name + "-black.png";
       result.images[*match.black] = blackLiftMap(i, mappings_, maps_, *black_, raster_, masks_[i]);
@@ -161,13 +170,29 @@ class LightMatcher {
     result.matches[name] = match;
   }
 
+  void addMeasured(const std::vector<double>& leak, LightResult& result) const {
+    double brightest = 0;
+    for (const auto& white : corrected_) {
+      for (const float value : white.samples()) brightest = std::max(brightest, double(value));
+    }
+    for (std::size_t i = 0; i < corrected_.size(); ++i) {
+      const std::string& name = calibration_.projectors[i].name;
+      MeasuredLight measured{"calibration/" + name + "-white.png", brightest, primaries_[i],
+                             photographed_[i].primaries.has_value(), std::nullopt};
+      if (leak[i] >= 0) measured.leak = leak[i];
+      result.images[measured.white] = packed(corrected_[i], brightest);
+      result.measured[name] = measured;
+    }
+  }
+
   const Wall& wall_;
   const Calibration& calibration_;
   const std::vector<Image16>& masks_;
   WallRaster raster_;
-  std::vector<LightField> fields_;
   std::vector<ProjectorMapping> mappings_;
-  std::vector<ImageF> corrected_;
+  const std::vector<PhotographedLight>& photographed_;
+  std::vector<ImageF> corrected_;  // white without the camera's vignetting
+  std::vector<Matrix3> primaries_;
   CommonGamut gamut_;
   std::vector<ProjectorLightMaps> maps_;
   std::optional<BlackTarget> black_;
@@ -178,9 +203,9 @@ class LightMatcher {
 LightResult matchLight(const Wall& wall, const Calibration& calibration, Method method,
                        const std::vector<Image16>& masks, const std::vector<double>& leak, Photographs& source,
                        Progress& progress) {
-  LightMatcher matcher(wall, calibration, masks, photographWhite(calibration, method, kNodesAcross, source, progress));
+  const auto photographed = photographLight(calibration, method, kNodesAcross, source, progress);
   try {
-    return matcher.match(leak);
+    return LightMatcher(wall, calibration, masks, photographed).match(leak);
   } catch (const LightError& error) {
     throw ProcedureError(std::string("gamma: ") + error.what());
   } catch (const EstimateError& error) {

@@ -16,7 +16,8 @@ namespace pixelflex::calib {
 /// What matching the projectors' light gave and cost.
 struct LightResult {
   std::map<std::string, LightMatch> matches;       // by projector
-  std::map<std::string, devices::Image16> images;  // gain and black maps, by path relative to the wall's folder
+  std::map<std::string, MeasuredLight> measured;   // by projector: what they were matched by
+  std::map<std::string, devices::Image16> images;  // gain, black and white maps, by path relative to the wall's folder
   double kept = 1;                                 // of the light that the projectors would give unmatched
   double contrastNative = 0;                       // 0 where black was not evened
   double contrastEven = 0;

@@ -4,15 +4,14 @@
 #include <utility>
 
 #include "calib/estimate/intrinsics.h"
-#include "calib/geometry/projector_mapping.h"
 #include "calib/patterns/blob_pattern.h"
-#include "calib/photometric/mask.h"
 #include "calib/photometric/response_curve.h"
 #include "calib/procedure/camera_step.h"
 #include "calib/procedure/display_step.h"
 #include "calib/procedure/fingerprint.h"
 #include "calib/procedure/geometry_step.h"
 #include "calib/procedure/light_step.h"
+#include "calib/procedure/mask_step.h"
 #include "calib/procedure/surface_step.h"
 #include "calib/procedure/wording.h"
 #include "calib/store/readings_file.h"
@@ -155,9 +154,11 @@ std::string Procedure::fingerprint(const std::string& step) const {
   } else if (step == "blend") {
     previous("projectors");
     print.add(wall_.blend.densityExponent).add(formatNudges(nudges_));
+    if (wall_.blend.priorityFeather > 0) print.add("feather").add(wall_.blend.priorityFeather);
+    if (wall_.blend.stack == StackRule::kLeftRight) print.add("left-right");
   } else {
     previous("projectors");
-    if (matchesLight()) {
+    if (wall_.blend.matchesLight()) {
       print.add(wall_.blend.uniformity.value_or(-1)).add(wall_.blend.evenBlack ? 1 : 0).add(measureStamp("patterns"));
       previous("blend");
     }
@@ -247,8 +248,7 @@ std::string Procedure::runProjectors() {
   auto& source = photographs("projectors");
   tookPhotographs_ = true;
   const auto wanted = wantedProjectors();
-  std::map<std::string, std::optional<LightMatch>> lights;
-  for (const auto& known : calibration_.projectors) lights[known.name] = known.light;
+  const std::vector<ProjectorCalibration> before = calibration_.projectors;
   std::erase_if(calibration_.projectors,
                 [&](const auto& known) { return options_.only.empty() || options_.only.contains(known.name); });
   const std::size_t kept = calibration_.projectors.size();
@@ -258,7 +258,7 @@ std::string Procedure::runProjectors() {
   if (seen.empty()) throw ProcedureError("no projector could be calibrated");
   const auto surfaces = surfacesFor(seen);
   for (const auto& projector : seen) addProjector(projector, surfaces);
-  for (auto& projector : calibration_.projectors) projector.light = lights[projector.name];
+  for (const auto& known : before) keepLight(known);
   if (calibration_.projectors.size() == kept) throw ProcedureError("no projector could be calibrated");
   std::ranges::sort(calibration_.projectors, {}, [&](const ProjectorCalibration& p) {
     return std::ranges::find(wall_.projectors, p.name, &ProjectorConfig::name) - wall_.projectors.begin();
@@ -291,6 +291,14 @@ std::vector<SurfaceFit> Procedure::surfacesFor(const std::vector<SeenProjector>&
   return surfaces;
 }
 
+/// Until it is measured again.
+void Procedure::keepLight(const ProjectorCalibration& known) {
+  const auto now = std::ranges::find(calibration_.projectors, known.name, &ProjectorCalibration::name);
+  if (now == calibration_.projectors.end()) return;
+  now->light = known.light;
+  now->measured = known.measured;
+}
+
 void Procedure::addProjector(const SeenProjector& seen, const std::vector<SurfaceFit>& surfaces) {
   try {
     ProjectorCalibration projector = calibrateProjector(seen, surfaces);
@@ -321,26 +329,23 @@ std::string Procedure::runMesh() {
 }
 
 std::string Procedure::runBlend() {
-  std::vector<ProjectorMapping> mappings;
-  std::vector<double> densities;
-  for (const auto& projector : calibration_.projectors) {
-    mappings.emplace_back(projector);
-    densities.push_back(mappings.back().meanDensity());
-  }
-  for (std::size_t i = 0; i < mappings.size(); ++i) {
+  const auto masks = paintMasks(wall_.blend, calibration_.projectors, progress_);
+  for (std::size_t i = 0; i < masks.size(); ++i) {
     auto& projector = calibration_.projectors[i];
     projector.alpha = "calibration/" + projector.name + "-alpha.png";
-    masks_[*projector.alpha] = alphaMask(i, mappings, densities, wall_.blend.densityExponent);
-    progress_.advance(static_cast<int>(i) + 1, static_cast<int>(mappings.size()), projector.name);
+    masks_[*projector.alpha] = masks[i];
   }
-  return count(mappings.size(), "mask");
+  return count(masks.size(), "mask");
 }
 
 std::string Procedure::runGamma() {
   std::size_t measured = 0;
   for (auto& projector : calibration_.projectors) {
     projector.response.reset();
-    if (options_.only.empty()) projector.light.reset();
+    if (options_.only.empty()) {
+      projector.light.reset();
+      projector.measured.reset();
+    }
     const auto config = std::ranges::find(wall_.projectors, projector.name, &ProjectorConfig::name);
     if (config == wall_.projectors.end()) continue;
     const auto& gamma = config->gamma;
@@ -353,11 +358,7 @@ std::string Procedure::runGamma() {
   const std::size_t assumed = calibration_.projectors.size() - measured;
   const std::string responses =
       count(measured, "response") + (assumed > 0 ? ", sRGB assumed for " + std::to_string(assumed) : "");
-  return matchesLight() && options_.only.empty() ? responses + ", " + matchProjectors() : responses;
-}
-
-bool Procedure::matchesLight() const {
-  return wall_.blend.uniformity || wall_.blend.evenBlack;
+  return wall_.blend.matchesLight() && options_.only.empty() ? responses + ", " + matchProjectors() : responses;
 }
 
 std::string Procedure::matchProjectors() {
@@ -372,7 +373,10 @@ std::string Procedure::matchProjectors() {
     leak.push_back(config != wall_.projectors.end() && config->gamma ? leakOf(folder_ / *config->gamma) : -1);
   }
   const LightResult light = matchLight(wall_, calibration_, method_, masks, leak, source, progress_);
-  for (auto& projector : calibration_.projectors) projector.light = light.matches.at(projector.name);
+  for (auto& projector : calibration_.projectors) {
+    projector.light = light.matches.at(projector.name);
+    projector.measured = light.measured.at(projector.name);
+  }
   masks_.insert(light.images.begin(), light.images.end());
   std::string text = "light matched at " + rounded(100 * light.kept, 0) + " % of it";
   if (light.contrastEven > 0) {

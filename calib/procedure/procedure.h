@@ -71,11 +71,11 @@ class Procedure {
   std::string keepOrFindDisplay();
   std::string runBlend();
   std::string runGamma();
-  [[nodiscard]] bool matchesLight() const;
   std::string matchProjectors();
 
   [[nodiscard]] std::vector<const ProjectorConfig*> wantedProjectors() const;
   [[nodiscard]] std::vector<SurfaceFit> surfacesFor(const std::vector<SeenProjector>& seen);
+  void keepLight(const ProjectorCalibration& known);
   void addProjector(const SeenProjector& seen, const std::vector<SurfaceFit>& surfaces);
   void reportFailure(const std::string& name, const std::string& problem);
 

@@ -1,12 +1,16 @@
 #include "calib/procedure/white_photographs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "calib/patterns/colour_fields.h"
 #include "calib/procedure/procedure_error.h"
 
 namespace pixelflex::calib {
 namespace {
+
+using devices::ImageF;
 
 class WhitePhotographer {
  public:
@@ -15,9 +19,9 @@ class WhitePhotographer {
     for (const auto& projector : calibration.projectors) mappings_.emplace_back(projector);
   }
 
-  std::vector<LightField> photograph(Progress& progress) {
+  std::vector<PhotographedLight> photograph(Progress& progress) {
     const std::vector<int> places = bestPlaces();
-    std::vector<LightField> fields(mappings_.size());
+    std::vector<PhotographedLight> fields(mappings_.size());
     int done = 0;
     for (int place = 0; place < source_.placeCount(); ++place) {
       if (std::ranges::find(places, place) == places.end()) continue;
@@ -25,7 +29,7 @@ class WhitePhotographer {
       for (std::size_t i = 0; i < mappings_.size(); ++i) {
         if (places[i] != place) continue;
         fields[i] = photographOne(i, viewFrom(place));
-        progress.advance(++done, static_cast<int>(mappings_.size()), calibration_.projectors[i].name + " white");
+        progress.advance(++done, static_cast<int>(mappings_.size()), calibration_.projectors[i].name + " light");
       }
     }
     return fields;
@@ -78,18 +82,81 @@ class WhitePhotographer {
     return best;
   }
 
-  [[nodiscard]] LightField photographOne(std::size_t i, const ScreenView& view) {
+  [[nodiscard]] PhotographedLight photographOne(std::size_t i, const ScreenView& view) {
     const auto& projector = calibration_.projectors[i];
     const auto patterns = patternsOf(method_, projector.resolution);
     const auto black = source_.pattern(projector.name, patterns[0]);
     const auto white = source_.pattern(projector.name, patterns[1]);
-    if (black.size() != calibration_.camera->size || white.size() != black.size()) {
-      throw ProcedureError(patternPath(projector.name, patterns[1]).string() +
-                           ": not of the size that the camera was calibrated at");
-    }
+    requireSize(black, projector.name, patterns[0]);
+    requireSize(white, projector.name, patterns[1]);
     const double rows = double(nodesAcross_) * projector.resolution.height / projector.resolution.width;
     const devices::Size lattice{nodesAcross_, std::max(2, static_cast<int>(std::lround(rows)))};
-    return measureLight(black, white, mappings_[i], view, CameraMapping(*calibration_.camera), lattice);
+    const CameraMapping camera(*calibration_.camera);
+    return {measureLight(black, white, mappings_[i], view, camera, lattice), primariesOf(i, black, white, view)};
+  }
+
+  /// Sums over a coarse lattice of what the camera sees of all fields.
+  [[nodiscard]] std::optional<Matrix3> primariesOf(std::size_t i, const devices::Image8& black,
+                                                   const devices::Image8& white, const ScreenView& view) {
+    constexpr devices::Size kLattice{16, 12};
+    const auto& projector = calibration_.projectors[i];
+    const auto fields = colourFields(projector.resolution);
+    const bool taken =
+        std::ranges::all_of(fields, [&](const auto& field) { return source_.hasPattern(projector.name, field); });
+    if (!taken) return std::nullopt;
+    const CameraMapping camera(*calibration_.camera);
+    const auto lightOf = [&](const devices::Image8& photo) {
+      return measureLight(black, photo, mappings_[i], view, camera, kLattice).light;
+    };
+    const ImageF all = lightOf(white);
+    Matrix3 primaries{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto photo = source_.pattern(projector.name, fields[c]);
+      requireSize(photo, projector.name, fields[c]);
+      const auto mean = meanWhere(all, lightOf(photo));
+      for (std::size_t row = 0; row < 3; ++row) primaries[3 * row + c] = mean[row];
+    }
+    return addedUp(primaries, meanWhere(all, all), projector.name);
+  }
+
+  void requireSize(const devices::Image8& photo, const std::string& name, const ProjectedPattern& pattern) const {
+    if (photo.size() == calibration_.camera->size) return;
+    throw ProcedureError(patternPath(name, pattern).string() + ": not of the size that the camera was calibrated at");
+  }
+
+  /// Mean of `light` over the nodes where white was seen.
+  static std::array<double, 3> meanWhere(const ImageF& white, const ImageF& light) {
+    std::array<double, 3> sum{};
+    double count = 0;
+    for (int y = 0; y < white.height(); ++y) {
+      for (int x = 0; x < white.width(); ++x) {
+        if (white.at(x, y, 1) <= 0) continue;
+        for (int c = 0; c < 3; ++c) sum[static_cast<std::size_t>(c)] += light.at(x, y, c);
+        ++count;
+      }
+    }
+    for (double& value : sum) value /= std::max(count, 1.0);
+    return sum;
+  }
+
+  /// Red, green and blue make white, unless a photograph is another's or the exposure changed. Scaled so that they do
+  /// exactly.
+  static Matrix3 addedUp(Matrix3 primaries, const std::array<double, 3>& white, const std::string& name) {
+    constexpr double kMostDifference = 0.15;
+    for (std::size_t row = 0; row < 3; ++row) {
+      const double sum = primaries[3 * row] + primaries[3 * row + 1] + primaries[3 * row + 2];
+      if (!(sum > 0) || std::abs(sum / white[row] - 1) > kMostDifference) {
+        throw ProcedureError("projector " + name + ": its photographs of red, green and blue together are not its " +
+                             "white: exchanged, or taken with another exposure? Take them again (" + name + "/red, " +
+                             name + "/green, " + name + "/blue, " + name + "/white)");
+      }
+      for (std::size_t c = 0; c < 3; ++c) primaries[3 * row + c] *= white[row] / sum;
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (primaries[3 * c + c] * 2 > primaries[c] + primaries[3 + c] + primaries[6 + c]) continue;
+      throw ProcedureError("projector " + name + ": its photographs of red, green and blue are exchanged");
+    }
+    return primaries;
   }
 
   const Calibration& calibration_;
@@ -101,9 +168,22 @@ class WhitePhotographer {
 
 }  // namespace
 
-std::vector<LightField> photographWhite(const Calibration& calibration, Method method, int nodesAcross,
-                                        Photographs& source, Progress& progress) {
+std::vector<PhotographedLight> photographLight(const Calibration& calibration, Method method, int nodesAcross,
+                                               Photographs& source, Progress& progress) {
   return WhitePhotographer(calibration, method, nodesAcross, source).photograph(progress);
+}
+
+std::vector<ImageF> withoutVignetting(const Calibration& calibration,
+                                      const std::vector<PhotographedLight>& photographed) {
+  std::vector<SeenLight> samples;
+  for (std::size_t i = 0; i < photographed.size(); ++i) {
+    const auto own = samplesOf(photographed[i].white, i, ProjectorMapping(calibration.projectors[i]));
+    samples.insert(samples.end(), own.begin(), own.end());
+  }
+  const CameraVignetting vignetting = estimateVignetting(samples, photographed.size(), *calibration.camera);
+  std::vector<ImageF> corrected;
+  for (const auto& light : photographed) corrected.push_back(withoutVignetting(light.white, vignetting));
+  return corrected;
 }
 
 }  // namespace pixelflex::calib

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include "calib/capture/folder_photographs.h"
 #include "calib/capture/live_photographs.h"
 #include "calib/geometry/nudge_map.h"
+#include "calib/patterns/colour_fields.h"
 #include "calib/procedure/drift_check.h"
 #include "calib/procedure/procedure.h"
 #include "calib/procedure/summary.h"
@@ -89,12 +91,16 @@ std::optional<Method> methodOf(const Arguments& arguments) {
 }
 
 void writePatternFolder(const Wall& wall, const Arguments& arguments) {
-  std::vector<std::pair<std::string, devices::Size>> projectors;
-  for (const auto& projector : wall.projectors) projectors.emplace_back(projector.name, projector.resolution);
   const Method method = methodOf(arguments).value_or(Method::kBlobs);
-  writePatterns(arguments.patterns, projectors, method);
+  std::vector<ProjectorPatterns> projectors;
   std::size_t patterns = 0;
-  for (const auto& [name, size] : projectors) patterns += patternsOf(method, size).size();
+  for (const auto& config : wall.projectors) {
+    auto& projector = projectors.emplace_back(config.name, config.resolution, patternsOf(method, config.resolution));
+    if (wall.blend.matchesLight())
+      std::ranges::copy(colourFields(config.resolution), std::back_inserter(projector.patterns));
+    patterns += projector.patterns.size();
+  }
+  writePatterns(arguments.patterns, projectors, method);
   fmt::print("{} patterns for {} projectors in {}; read {}\n", patterns, projectors.size(), arguments.patterns,
              (fs::path(arguments.patterns) / "README.txt").string());
 }
@@ -109,9 +115,9 @@ void requireProjectors(const Wall& wall, const std::string& option, const std::v
 
 /// Measured steps can be left alone when their photographs are out of reach but only later ones were asked for.
 bool needsPhotographs(const Wall& wall, const Arguments& arguments) {
-  const bool matchesLight = wall.blend.uniformity || wall.blend.evenBlack;
   const auto measured = [&](const std::string& step) {
-    return step == "camera" || step == "surface" || step == "projectors" || (step == "gamma" && matchesLight);
+    return step == "camera" || step == "surface" || step == "projectors" ||
+           (step == "gamma" && wall.blend.matchesLight());
   };
   return arguments.steps.empty() || std::ranges::any_of(arguments.steps, measured);
 }

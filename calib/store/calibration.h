@@ -104,6 +104,17 @@ struct LightMatch {
 
 inline constexpr double kLargestBlackLift = 0.0625;
 
+/// A projector's light as the camera saw it, in the camera's linear channels.
+struct MeasuredLight {
+  std::string white;     // 16-bit RGB PNG stretched over the frame, samples in the middles of equal cells: white above
+                         // black, the camera's vignetting divided out, 0 where it was not seen; relative to the folder
+  double brightest = 1;  // what 65535 stands for, in a unit that all projectors of the wall share
+  std::array<double, 9> primaries{};  // row major; the columns are what full red, green and blue add to the mean white
+  bool primariesKnown = false;        // from photographs of them; else each channel is taken to be seen by one of ours
+  std::optional<double> leak;         // of black, in white above black
+  bool operator==(const MeasuredLight&) const = default;
+};
+
 struct ProjectorCalibration {
   std::string name;
   devices::Size resolution;
@@ -113,6 +124,7 @@ struct ProjectorCalibration {
   std::optional<std::string> alpha;  // 16-bit PNG of the projector's resolution, relative to the wall's folder
   std::optional<std::string>
       response;  // 256 rows value,red,green,blue; normalised light, relative to the wall's folder
+  std::optional<MeasuredLight> measured;
   std::optional<LightMatch> light;
   std::optional<Nudge> nudge;        // from nudge.yaml; not part of calibration.yaml
   std::optional<glm::ivec2> flatAt;  // an exact screen: shows desktop pixels one to one from here

@@ -141,6 +141,17 @@ LightMatch readLight(const Node& node) {
   return light;
 }
 
+MeasuredLight readMeasured(const Node& node) {
+  MeasuredLight measured;
+  measured.white = readText(node.required("white"), kMaxPath);
+  measured.brightest = node.required("brightest").number(kTiny, kHuge);
+  measured.primaries = readArray<9>(node.required("primaries"));
+  measured.primariesKnown = node.required("primaries_known").boolean();
+  if (const Node leak = node.optional("leak"); leak.defined()) measured.leak = leak.number(0, 1);
+  node.refuseUnknownKeys();
+  return measured;
+}
+
 ProjectorCalibration readProjector(const Node& node) {
   ProjectorCalibration projector;
   projector.name = readName(node.required("name"));
@@ -154,6 +165,7 @@ ProjectorCalibration readProjector(const Node& node) {
   if (const Node quality = node.optional("quality"); quality.defined()) projector.quality = readQuality(quality);
   if (const Node alpha = node.optional("alpha"); alpha.defined()) projector.alpha = readText(alpha, kMaxPath);
   if (const Node file = node.optional("response"); file.defined()) projector.response = readText(file, kMaxPath);
+  if (const Node seen = node.optional("measured_light"); seen.defined()) projector.measured = readMeasured(seen);
   if (const Node light = node.optional("light"); light.defined()) projector.light = readLight(light);
   projector.flatAt = readFlat(node.optional("flat"), projector.resolution);
   node.refuseUnknownKeys();

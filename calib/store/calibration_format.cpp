@@ -89,12 +89,21 @@ std::string lightText(const LightMatch& light) {
   return text + "}\n";
 }
 
+std::string measuredText(const MeasuredLight& measured) {
+  std::string text = fmt::format("    measured_light: {{white: {}, brightest: {}, primaries: {}, primaries_known: {}",
+                                 yamlText(measured.white), yamlNumber(measured.brightest), yamlList(measured.primaries),
+                                 measured.primariesKnown);
+  if (measured.leak) text += ", leak: " + yamlNumber(*measured.leak);
+  return text + "}\n";
+}
+
 std::string projectorText(const ProjectorCalibration& projector) {
   std::string text =
       fmt::format("  - name: {}\n    resolution: [{}, {}]\n{}{}", yamlText(projector.name), projector.resolution.width,
                   projector.resolution.height, modelText(projector.model), qualityText(projector.quality));
   if (projector.alpha) text += fmt::format("    alpha: {}\n", yamlText(*projector.alpha));
   if (projector.response) text += fmt::format("    response: {}\n", yamlText(*projector.response));
+  if (projector.measured) text += measuredText(*projector.measured);
   if (projector.light) text += lightText(*projector.light);
   if (const auto& at = projector.flatAt) text += fmt::format("    flat: {{at: [{}, {}]}}\n", at->x, at->y);
   return text + samplesText(projector.samples);

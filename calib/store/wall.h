@@ -72,10 +72,16 @@ struct ProjectorConfig {
   bool operator==(const ProjectorConfig&) const = default;
 };
 
+/// What projectors that light the same part of the wall do with it: share its light, or show it to an eye each.
+enum class StackRule { kShare, kLeftRight };
+
 struct Blend {
-  double densityExponent = 2;        // n of equation 7
+  double densityExponent = 2;  // n of equation 7
+  double priorityFeather = 0;  // denser projectors win, with a ramp of so many of their pixels; 0: equation 7 alone
+  StackRule stack = StackRule::kShare;
   std::optional<double> uniformity;  // match the projectors' light, 0 brightest to 1 flattest; none: leave it as it is
   bool evenBlack = false;            // lift black where fewer projectors leak, for some contrast
+  [[nodiscard]] bool matchesLight() const { return uniformity || evenBlack; }
   bool operator==(const Blend&) const = default;
 };
 

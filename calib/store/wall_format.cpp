@@ -59,6 +59,8 @@ std::string projectorText(const ProjectorConfig& projector) {
 
 std::string blendText(const Blend& blend) {
   std::string text = fmt::format("blend: {{density_exponent: {}", yamlNumber(blend.densityExponent));
+  if (blend.priorityFeather > 0) text += ", priority_feather: " + yamlNumber(blend.priorityFeather);
+  if (blend.stack == StackRule::kLeftRight) text += ", stack: left-right";
   if (blend.uniformity) text += ", uniformity: " + yamlNumber(*blend.uniformity);
   if (blend.evenBlack) text += ", black: even";
   return text + "}\n";

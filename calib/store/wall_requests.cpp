@@ -70,6 +70,14 @@ DesktopRequest readDesktop(const Node& node) {
 Blend readBlend(const Node& node) {
   Blend blend;
   if (const Node n = node.optional("density_exponent"); n.defined()) blend.densityExponent = n.number(0, 16);
+  if (const Node n = node.optional("priority_feather"); n.defined()) blend.priorityFeather = n.number(0, 4096);
+  if (const Node stack = node.optional("stack"); stack.defined()) {
+    const std::string text = stack.isScalar() ? stack.text() : "";
+    if (text != "share" && text != "left-right") {
+      stack.problem("expected share or left-right, found " + quotedForMessage(text));
+    }
+    blend.stack = text == "left-right" ? StackRule::kLeftRight : StackRule::kShare;
+  }
   if (const Node uniformity = node.optional("uniformity"); uniformity.defined()) {
     if (!uniformity.isScalar() || uniformity.text() != "off") blend.uniformity = uniformity.number(0, 1);
   }

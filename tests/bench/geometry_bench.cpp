@@ -82,7 +82,7 @@ void masks(benchmark::State& state) {
   const std::vector<double> densities(mappings.size(), 1.0);
   for (auto _ : state) {
     for (std::size_t i = 0; i < mappings.size(); ++i) {
-      benchmark::DoNotOptimize(alphaMask(i, mappings, densities, 2));
+      benchmark::DoNotOptimize(alphaMask(i, mappings, densities, {}));
     }
   }
 }

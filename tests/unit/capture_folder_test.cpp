@@ -257,8 +257,13 @@ TEST_F(CaptureTest, TheStampChangesWithAPhotographOfAnyPlace) {
   EXPECT_EQ(photographs.stamp("checkerboard"), checkerboard);
 }
 
+ProjectorPatterns patternsFor(const std::string& name, devices::Size size, Method method) {
+  return {name, size, patternsOf(method, size)};
+}
+
 TEST_F(CaptureTest, WritesThePatternsOfAMethodWithInstructions) {
-  writePatterns(photos(), {{"p1", {64, 48}}, {"p2", {80, 60}}}, Method::kDense);
+  writePatterns(photos(), {patternsFor("p1", {64, 48}, Method::kDense), patternsFor("p2", {80, 60}, Method::kDense)},
+                Method::kDense);
   EXPECT_EQ(devices::readPng8(photos() / "p2/dense-xphase3.png").size(), (devices::Size{80, 60}));
   std::ifstream file(photos() / "README.txt");
   const std::string text(std::istreambuf_iterator<char>(file), {});
@@ -266,7 +271,7 @@ TEST_F(CaptureTest, WritesThePatternsOfAMethodWithInstructions) {
   EXPECT_THAT(text, HasSubstr("from dense-white.png on"));
   EXPECT_THAT(text, HasSubstr("--photos photos/ --method dense"));
   EXPECT_THAT(text, HasSubstr("40 to 60 %"));
-  writePatterns(photos() / "blobs", {{"p1", {64, 48}}});
+  writePatterns(photos() / "blobs", {patternsFor("p1", {64, 48}, Method::kBlobs)});
   EXPECT_TRUE(fs::exists(photos() / "blobs/p1/bit6.png"));
 }
 

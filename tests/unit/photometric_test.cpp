@@ -32,7 +32,7 @@ class BlendTest : public ::testing::Test {
 TEST_F(BlendTest, SharesSumToOneWhereverThereIsLight) {
   for (double y = 5; y < 400; y += 7) {
     for (double x = 5; x < 700; x += 7) {
-      const auto shares = blendShares({x, y}, projectors_, densities_, 2);
+      const auto shares = blendShares({x, y}, projectors_, densities_, {});
       bool lit = false;
       for (const auto& projector : projectors_) {
         const auto p = projector.projectorFromWall({x, y});
@@ -46,12 +46,12 @@ TEST_F(BlendTest, SharesSumToOneWhereverThereIsLight) {
 
 TEST_F(BlendTest, MasksAreTheSharesOfEachPixel) {
   for (std::size_t i = 0; i < projectors_.size(); ++i) {
-    const auto mask = alphaMask(i, projectors_, densities_, 2);
+    const auto mask = alphaMask(i, projectors_, densities_, {});
     ASSERT_EQ(mask.size(), projectors_[i].resolution());
     for (int y = 1; y < 300; y += 37) {
       for (int x = 1; x < 400; x += 37) {
         const auto wall = projectors_[i].wallFromProjector({x + 0.5, y + 0.5});
-        const double expected = blendShares(*wall, projectors_, densities_, 2)[i];
+        const double expected = blendShares(*wall, projectors_, densities_, {})[i];
         EXPECT_NEAR(mask.at(x, y) / 65535.0, expected, 1e-5);
       }
     }
@@ -59,7 +59,7 @@ TEST_F(BlendTest, MasksAreTheSharesOfEachPixel) {
 }
 
 TEST_F(BlendTest, AloneAProjectorHasAllTheLight) {
-  const auto mask = alphaMask(0, projectors_, densities_, 2);
+  const auto mask = alphaMask(0, projectors_, densities_, {});
   EXPECT_EQ(mask.at(0, 0), 65535);  // even on its own border
   EXPECT_EQ(mask.at(50, 50), 65535);
 }
@@ -68,7 +68,7 @@ TEST_F(BlendTest, TheDenserProjectorWinsWithTheExponent) {
   const glm::dvec2 shared{250, 270};  // lit by the first and the denser third
   double before = 0;
   for (const double exponent : {0.0, 1.0, 2.0, 4.0}) {
-    const double third = blendShares(shared, projectors_, densities_, exponent)[2];
+    const double third = blendShares(shared, projectors_, densities_, {.densityExponent = exponent})[2];
     EXPECT_GT(third, before);
     before = third;
   }

@@ -68,6 +68,7 @@ TEST(StoreCalibration, RoundTripsBentScreensResidualsAndPlaces) {
   p1.model.residual = calib::ResidualSpline{1, 2, std::vector<glm::dvec2>(20, {0.0625, -0.03})};
   p1.light =
       calib::LightMatch{{0.9, 0.01, 0, 0, 0.95, 0, 0.02, 0, 1}, "calibration/p1-gain.png", "calibration/p1 black.png"};
+  p1.measured = calib::MeasuredLight{"calibration/p1-white.png", 211.5, {1, 0.1, 0, 0, 2, 0, 0.25, 0, 3}, true, 0.002};
   p1.quality.heldOut = 0.031;
   p1.quality.deviation = 0.007;
   p1.quality.cameraScale = 0.41;

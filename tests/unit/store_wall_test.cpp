@@ -31,7 +31,11 @@ calib::Wall richWall() {
   second.resolution = {16, 16384};
   second.output.kind = calib::OutputKind::kSim;
   wall.projectors.push_back(second);
-  wall.blend = {.densityExponent = 2.5, .uniformity = 0.75, .evenBlack = true};
+  wall.blend = {.densityExponent = 2.5,
+                .priorityFeather = 60,
+                .stack = calib::StackRule::kLeftRight,
+                .uniformity = 0.75,
+                .evenBlack = true};
   wall.display = {.aspect = calib::AspectRatio{16, 9.5}, .margin = 0};
   wall.desktop = {.density = calib::DensityRule::kFixed,
                   .pixelsPerUnit = 0.7,
@@ -193,6 +197,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"{driver: pjlink, ", "{", "\"driver\" is missing"},
         BadEdit{"density_exponent: 2", "density_exponent: 17", "from 0 to 16"},
         BadEdit{"density_exponent: 2", "uniformity: 1.5", "from 0 to 1"},
+        BadEdit{"density_exponent: 2", "stack: both", "expected share or left-right, found"},
+        BadEdit{"density_exponent: 2", "priority_feather: -1", "from 0 to 4096"},
         BadEdit{"density_exponent: 2", "black: grey", "expected native or even, found"},
         BadEdit{"aspect: any", "aspect: 16x9", "expected any or W:H"},
         BadEdit{"aspect: any", "aspect: 16:0", "expected any or W:H"},
