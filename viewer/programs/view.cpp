@@ -11,8 +11,12 @@
 
 #include "calib/store/store.h"
 #include "viewer/programs/headless.h"
+#include "viewer/programs/password.h"
 #include "viewer/programs/view_options.h"
+#include "viewer/programs/view_security.h"
+#include "viewer/programs/wall_view.h"
 #include "viewer/programs/windows.h"
+#include "viewer/vnc/known_servers.h"
 
 namespace pixelflex::viewer {
 namespace {
@@ -26,6 +30,24 @@ int view(const ViewOptions& options) {
   const WallPlan wall(options.wall, calib::loadWall(options.wall), calib::loadCalibration(options.wall),
                       options.projectors);
   return options.headless ? runHeadless(options, wall) : runWindows(options, wall);
+}
+
+// Asks for the password only when a server wants one that was not given.
+int viewWithPassword(ViewOptions& options) {
+  completeSecurity(options);
+  try {
+    return view(options);
+  } catch (const PasswordNeeded& needed) {
+    if (options.password) throw;
+    options.password = askForPassword("Password for " + options.server.text() + ": ");
+    if (!options.password) throw;
+  }
+  return view(options);
+}
+
+void checkFingerprint(const std::string& text) {
+  if (text.empty() || normalFingerprint(text)) return;
+  throw std::invalid_argument("--tls-fingerprint " + text + ": a SHA-256 has 64 hexadecimal digits");
 }
 
 }  // namespace
@@ -48,7 +70,18 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--projectors", options.projectors, "only these projectors")->delimiter(',');
   app.add_flag("--view-only", options.viewOnly, "send neither pointer nor keys");
-  app.add_option("--password-file", options.passwordFile, "the first line is the password; mode 0600");
+  app.add_option("--password-file", options.passwordFile,
+                 "the first line is the password, or vncpasswd wrote it; mode 0600. Without it PIXELFLEX_VNC_PASSWORD "
+                 "is taken, or the terminal is asked");
+  app.add_option("--user", options.user, "for servers that ask who it is; otherwise PIXELFLEX_VNC_USER is taken");
+  std::string require = pixelflex::viewer::nameOf(options.security.require);
+  app.add_option(
+         "--require", require,
+         "refuse a connection below: none, vnc (a password), tls (encrypted), x509 (encrypted, the server known)")
+      ->check(CLI::IsMember({"none", "vnc", "tls", "x509"}))
+      ->capture_default_str();
+  app.add_option("--tls-ca", options.security.caFile, "PEM file with the only authorities to trust");
+  app.add_option("--tls-fingerprint", options.security.fingerprint, "SHA-256 of the only certificate to trust");
   app.add_option("--depth", options.depth,
                  "bits for each colour that the projectors are sent, 8 or 10; with 10 their screenshots are 16-bit PNG")
       ->check(CLI::IsMember({8, 10}))
@@ -66,6 +99,8 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     options.settle = std::chrono::milliseconds(settle);
     options.server = pixelflex::viewer::parseServerAddress(server);
+    options.security.require = pixelflex::viewer::parseSecurityLevel(require);
+    pixelflex::viewer::checkFingerprint(options.security.fingerprint);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   } catch (const std::invalid_argument& error) {
@@ -73,7 +108,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    return pixelflex::viewer::view(options);
+    return pixelflex::viewer::viewWithPassword(options);
   } catch (const std::exception& error) {
     std::fflush(stdout);
     fmt::print(stderr, "pixelflex-view: {}\n", error.what());

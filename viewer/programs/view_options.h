@@ -22,6 +22,9 @@ struct ViewOptions {
   std::vector<std::string> projectors;  // empty: all
   bool viewOnly = false;
   std::optional<std::string> passwordFile;
+  std::optional<std::string> password;  // out of that file, the environment or a prompt
+  std::string user;
+  SecurityOptions security;
   std::optional<Retry> retry;  // empty: kNever for a screenshot, else kLost
   WhenLost whenLost = WhenLost::kDim;
   bool stats = false;

@@ -1,32 +1,21 @@
 #include "viewer/programs/wall_view.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
-#include <fstream>
+#include <cstdio>
 #include <utility>
+
+#include "viewer/programs/view_security.h"
 
 namespace pixelflex::viewer {
 namespace {
 
-std::optional<std::string> readPassword(const ViewOptions& options) {
-  if (!options.passwordFile) return std::nullopt;
-  const std::string& file = *options.passwordFile;
-  struct stat info {};
-  if (::stat(file.c_str(), &info) != 0) throw ViewError(file + ": no such password file");
-  if ((info.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
-    throw ViewError(file + ": others can read this password file; run chmod 600 " + file);
-  }
-  std::ifstream stream(file);
-  std::string password;
-  if (!std::getline(stream, password)) throw ViewError(file + ": holds no password (its first line is taken)");
-  return password;
-}
-
 SessionOptions sessionOptions(const ViewOptions& options) {
   return {.server = options.server,
-          .password = readPassword(options),
+          .password = options.password,
+          .user = options.user,
+          .security = options.security,
           .viewOnly = options.viewOnly,
           .retry = options.retry.value_or(options.screenshot ? Retry::kNever : Retry::kLost)};
 }
@@ -35,7 +24,8 @@ SessionOptions sessionOptions(const ViewOptions& options) {
 
 WallView::WallView(const ViewOptions& options, const WallPlan& wall, devices::GlContext& context,
                    const std::function<void()>& wake)
-    : wall_(wall),
+    : options_(options),
+      wall_(wall),
       renderer_(context, {.bitsPerColour = options.depth}),
       picture_(renderer_, options.whenLost),
       belt_(wake),
@@ -69,6 +59,9 @@ void WallView::handle(const SessionEvent& event) {
     connected_ = true;
     // What is shown stays until there is a picture to replace it.
     if (!hasPicture_) adopt(connected->size);
+    const std::string notice = securityNotice(options_, connected->security);
+    const bool said = hasPicture_ && connected->security.newFingerprint.empty();
+    if (!notice.empty() && !said) fmt::print(stderr, "pixelflex-view: {}\n", notice);
   } else if (const auto* shape = std::get_if<CursorShape>(&event)) {
     devices::Image8 image;
     if (shape->size.area() > 0) {
@@ -81,6 +74,7 @@ void WallView::handle(const SessionEvent& event) {
   } else if (const auto* lost = std::get_if<Lost>(&event)) {
     lose(lost->message);
   } else if (const auto* closed = std::get_if<Closed>(&event)) {
+    if (closed->kind == CloseKind::kPasswordNeeded) throw PasswordNeeded(closed->message);
     throw ViewError(closed->message);
   }
 }

@@ -25,13 +25,19 @@ class ViewError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// It ended because a password that was not given is needed.
+class PasswordNeeded : public ViewError {
+ public:
+  using ViewError::ViewError;
+};
+
 /// A server's desktop on a wall: session, belt and renderer held together on the render thread, which calls step()
 /// whenever it is woken.
 class WallView {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `wake` is called from any thread when there is something to do; both references must outlive this.
+  /// `wake` is called from any thread when there is something to do; all references must outlive this.
   WallView(const ViewOptions& options, const WallPlan& wall, devices::GlContext& context,
            const std::function<void()>& wake);
 
@@ -66,6 +72,7 @@ class WallView {
   void comeBack();
   void adopt(devices::Size desktop);
 
+  const ViewOptions& options_;
   const WallPlan& wall_;
   WallRenderer renderer_;
   LostPicture picture_;

@@ -1,0 +1,149 @@
+#include "viewer/programs/password.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/signalfd.h>
+#include <sys/stat.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+
+#include "viewer/vnc/vnc_auth.h"
+#include "viewer/vnc/waiting.h"
+
+namespace pixelflex::viewer {
+namespace {
+
+constexpr const char* kEnvironment = "PIXELFLEX_VNC_PASSWORD";
+constexpr std::size_t kMaxFileBytes = 4096;
+
+[[noreturn]] void fail(const std::string& file, const std::string& what) {
+  throw std::runtime_error(file + ": " + what);
+}
+
+// Checks the file that was opened, not another one of its name.
+void requirePrivate(const FileDescriptor& open, const std::string& file) {
+  struct stat info {};
+  if (::fstat(open.get(), &info) != 0 || !S_ISREG(info.st_mode)) fail(file, "is not a password file");
+  if ((info.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
+    fail(file, "others can read this password file; run chmod 600 " + file);
+  }
+}
+
+std::string readFile(const std::string& file) {
+  const FileDescriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (in.get() < 0) {
+    fail(file, errno == ENOENT ? "no such password file"
+                               : "cannot read the password: " + std::generic_category().message(errno));
+  }
+  requirePrivate(in, file);
+  std::string text(kMaxFileBytes, '\0');
+  const ssize_t got = ::read(in.get(), text.data(), text.size());
+  if (got < 0) fail(file, "cannot read the password: " + std::generic_category().message(errno));
+  text.resize(static_cast<std::size_t>(got));
+  return text;
+}
+
+bool isText(std::string_view bytes) {
+  return std::ranges::none_of(bytes, [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < ' ' || byte >= 0x7f;
+  });
+}
+
+// Switches the terminal's echo off while it lives.
+class SilentTerminal {
+ public:
+  explicit SilentTerminal(int terminal) : terminal_(terminal), known_(::tcgetattr(terminal, &before_) == 0) {
+    termios silent = before_;
+    silent.c_lflag &= ~static_cast<tcflag_t>(ECHO);
+    if (known_) ::tcsetattr(terminal_, TCSAFLUSH, &silent);
+  }
+  ~SilentTerminal() {
+    if (known_) ::tcsetattr(terminal_, TCSAFLUSH, &before_);
+  }
+  SilentTerminal(const SilentTerminal&) = delete;
+  SilentTerminal& operator=(const SilentTerminal&) = delete;
+
+  [[nodiscard]] bool silent() const { return known_; }
+
+ private:
+  int terminal_;
+  termios before_{};
+  bool known_;
+};
+
+void say(int terminal, std::string_view text) {
+  [[maybe_unused]] const ssize_t written = ::write(terminal, text.data(), text.size());
+}
+
+sigset_t blockedQuitSignals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+  ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  return signals;
+}
+
+// A terminal gives a line at a time. Nothing when the program is told to quit, so that the echo comes back on first.
+std::string readLine(int terminal) {
+  const sigset_t signals = blockedQuitSignals();
+  const FileDescriptor quit(::signalfd(-1, &signals, SFD_CLOEXEC));
+  std::array<pollfd, 2> watched{{{terminal, POLLIN, 0}, {quit.get(), POLLIN, 0}}};
+  while (::poll(watched.data(), watched.size(), -1) < 0 && errno == EINTR) {
+  }
+  if (watched[1].revents != 0) return {};
+  std::array<char, 1024> line{};
+  const ssize_t got = ::read(terminal, line.data(), line.size());
+  std::string text(line.data(), got > 0 ? static_cast<std::size_t>(got) : 0);
+  std::ranges::fill(line, '\0');
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+std::string readPasswordFile(const std::string& file) {
+  std::string text = readFile(file);
+  constexpr std::size_t kHidden = 8;
+  if (text.size() == kHidden && !isText(std::string_view(text).substr(0, text.find('\n')))) {
+    std::array<std::uint8_t, kHidden> hidden{};
+    std::ranges::copy(text, hidden.begin());
+    return revealVncPassword(hidden);
+  }
+  text.resize(std::min(text.size(), text.find('\n')));
+  while (!text.empty() && text.back() == '\r') text.pop_back();
+  if (text.empty()) fail(file, "holds no password (its first line is taken)");
+  return text;
+}
+
+std::optional<std::string> takePasswordOfEnvironment() {
+  const char* value = std::getenv(kEnvironment);
+  if (value == nullptr) return std::nullopt;
+  std::string password = value;
+  ::unsetenv(kEnvironment);
+  return password;
+}
+
+std::optional<std::string> askForPassword(const std::string& question) {
+  const FileDescriptor terminal(::open("/dev/tty", O_RDWR | O_CLOEXEC | O_NOCTTY));
+  // A program in the background would be stopped for asking.
+  if (terminal.get() < 0 || ::tcgetpgrp(terminal.get()) != ::getpgrp()) return std::nullopt;
+  const SilentTerminal silence(terminal.get());
+  if (!silence.silent()) return std::nullopt;
+  say(terminal.get(), question);
+  std::string password = readLine(terminal.get());
+  say(terminal.get(), "\n");
+  return password.empty() ? std::nullopt : std::optional(std::move(password));
+}
+
+}  // namespace pixelflex::viewer
