@@ -7,9 +7,22 @@ add_dependencies(calibrate_bench pixelflex-calibrate)
 add_executable(geometry_bench bench/geometry_bench.cpp)
 target_link_libraries(geometry_bench PRIVATE pixelflex_options pixelflex_geometry pixelflex_photometric
   benchmark::benchmark)
-set_target_properties(calibrate_bench geometry_bench PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+pkg_check_modules(VNCSERVER REQUIRED IMPORTED_TARGET libvncserver)
+add_executable(day_bench bench/day_bench.cpp bench/busy_desktop.cpp bench/busy_desktop.h bench/viewer_run.cpp
+  bench/viewer_run.h)
+add_executable(reconnect_bench bench/reconnect_bench.cpp bench/viewer_run.cpp bench/viewer_run.h)
+target_link_libraries(day_bench PRIVATE PkgConfig::VNCSERVER)
+foreach(name day_bench reconnect_bench)
+  target_link_libraries(${name} PRIVATE pixelflex_options pixelflex_test_support CLI11::CLI11 fmt::fmt)
+  target_compile_definitions(${name} PRIVATE PIXELFLEX_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  add_dependencies(${name} pixelflex-new pixelflex-view)
+endforeach()
+set_target_properties(calibrate_bench geometry_bench day_bench reconnect_bench
+  PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
 
 add_test(NAME calibrate_bench COMMAND calibrate_bench --tiny)
 add_test(NAME geometry_bench COMMAND geometry_bench "--benchmark_filter=/(768|2)/" --benchmark_min_time=0.001
   --benchmark_format=json)
-set_tests_properties(calibrate_bench geometry_bench PROPERTIES LABELS bench TIMEOUT 120)
+add_test(NAME day_bench COMMAND day_bench --updates 4000 --resize-every 200 --most-growth 5)
+add_test(NAME reconnect_bench COMMAND reconnect_bench --returns 2)
+set_tests_properties(calibrate_bench geometry_bench day_bench reconnect_bench PROPERTIES LABELS bench TIMEOUT 180)
