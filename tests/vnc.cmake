@@ -8,7 +8,7 @@ pixelflex_library(pixelflex_test_support
   PRIVATE PkgConfig::X11)
 
 pixelflex_test(vnc_e2e_test LABEL e2e TIMEOUT 120
-  SOURCES e2e/vnc_security_test.cpp e2e/vnc_xvnc_test.cpp
+  SOURCES e2e/vnc_reconnect_test.cpp e2e/vnc_security_test.cpp e2e/vnc_xvnc_test.cpp
   LINK pixelflex_test_support)
 
 pixelflex_test(vnc_test LABEL unit TIMEOUT 120

@@ -90,10 +90,12 @@ int main(int argc, char** argv) {
          "--retry", options.retry,
          "whether to wait for a server that is gone: lost, once it was there; always, also at the start; never. "
          "never is usual with --screenshot, else lost")
-      ->transform(CLI::CheckedTransformer(pixelflex::viewer::kRetries));
+      ->transform(CLI::CheckedTransformer(pixelflex::viewer::kRetries))
+      ->option_text("lost|always|never");
   app.add_option("--when-lost", options.whenLost,
                  "the last picture of a server that is gone: dim, mark (with a sign) or keep as it is; else dim")
-      ->transform(CLI::CheckedTransformer(pixelflex::viewer::kWhenLost));
+      ->transform(CLI::CheckedTransformer(pixelflex::viewer::kWhenLost))
+      ->option_text("dim|mark|keep");
   app.add_flag("--stats", options.stats, "print what was uploaded and drawn, and how long it took");
   try {
     app.parse(argc, argv);

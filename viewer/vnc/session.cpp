@@ -106,6 +106,7 @@ class Session::Worker {
     RfbClient client(socket, options_);
     client.handshake(Clock::now() + options_.connectTimeout, desk_.stopped());
     unsent_.clear();
+    requireNoLess(client.security().level);
     announce(client);
     Liveness liveness(3 * options_.patience, Clock::now());
     while (true) {
@@ -114,6 +115,11 @@ class Session::Worker {
       if (receive(client, stop)) liveness = Liveness(options_.patience, Clock::now());
       liveness.heard(Clock::now());
     }
+  }
+
+  // Whoever takes an encrypted server's place may not do so in the clear.
+  void requireNoLess(SecurityLevel level) {
+    if (level >= SecurityLevel::kTls) options_.security.require = std::max(options_.security.require, level);
   }
 
   void announce(const RfbClient& client) {
@@ -162,7 +168,7 @@ class Session::Worker {
     return true;
   }
 
-  const SessionOptions options_;
+  SessionOptions options_;  // the thread's own once it runs
   FrameBelt& belt_;
   SessionDesk desk_;
   // The thread's own:
