@@ -12,6 +12,6 @@ pixelflex_test(vnc_e2e_test LABEL e2e TIMEOUT 120
   LINK pixelflex_test_support)
 
 pixelflex_test(vnc_test LABEL unit TIMEOUT 120
-  SOURCES unit/vnc_address_test.cpp unit/vnc_failure_test.cpp unit/vnc_hostile_test.cpp unit/vnc_pieces_test.cpp
-    unit/vnc_reconnect_test.cpp unit/vnc_security_test.cpp unit/vnc_session_test.cpp
+  SOURCES unit/vnc_address_test.cpp unit/vnc_failure_test.cpp unit/vnc_hostile_cases_test.cpp
+    unit/vnc_hostile_test.cpp unit/vnc_pieces_test.cpp unit/vnc_reconnect_test.cpp unit/vnc_security_test.cpp unit/vnc_session_test.cpp
   LINK pixelflex_test_support)

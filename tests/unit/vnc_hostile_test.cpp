@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <random>
+#include <thread>
 #include <vector>
 
 #include "tests/support/desktop_mirror.h"
@@ -53,56 +56,6 @@ TEST(HostileServer, MayHangUpAfterAnyByte) {
   }
 }
 
-struct Hostile {
-  const char* name = nullptr;
-  Message bytes;
-  CloseKind kind = CloseKind::kProtocol;
-  const char* says = nullptr;
-};
-
-TEST(HostileServer, EndsWithAMessageWhateverItSends) {
-  const Hostile cases[] = {
-      {"no pixels", FakeConnection::greeting({0, 0}), CloseKind::kProtocol, "a desktop of 0x0"},
-      {"no columns", FakeConnection::greeting({0, 100}), CloseKind::kProtocol, "a desktop of 0x100"},
-      {"65535x65535", FakeConnection::greeting({65535, 65535}), CloseKind::kTooLarge, "65535x65535"},
-      {"shrinks to nothing", Message(FakeConnection::greeting({9, 9})).update(1).rect(0, 0, 0, 0, -223),
-       CloseKind::kProtocol, "a desktop of 0x0"},
-      {"version without numbers", Message().text("RFB abc.def\n"), CloseKind::kNotVnc, "RFB abc.def"},
-  };
-  for (const Hostile& hostile : cases) {
-    SCOPED_TRACE(hostile.name);
-    const Closed closed = closedAfter(hostile.bytes);
-    EXPECT_EQ(closed.kind, hostile.kind) << closed.message;
-    EXPECT_THAT(closed.message, HasSubstr(hostile.says));
-  }
-}
-
-TEST(HostileServer, EndsWithAMessageWhateverItSendsLater) {
-  const Hostile cases[] = {
-      {"rectangle outside", Message().update(1).rect(60, 0, 10, 10, 0).repeat(0, 400), CloseKind::kProtocol,
-       "Rect too large"},
-      {"rectangle far outside", Message().update(1).rect(65535, 65535, 65535, 65535, 7).repeat(0, 400),
-       CloseKind::kProtocol, "Rect too large"},
-      {"copy from outside", Message().update(1).rect(0, 0, 10, 10, 1).u16(60).u16(40), CloseKind::kProtocol,
-       "out of bounds"},
-      {"unknown encoding", Message().update(1).rect(0, 0, 1, 1, 12345), CloseKind::kProtocol, "encoding 12345"},
-      {"unknown message", Message().u8(77), CloseKind::kProtocol, "unknown type 77"},
-      {"message of another dialect", Message().u8(11).repeat(0, 3).u32(0xffffffff), CloseKind::kProtocol, "type 11"},
-      {"huge pointer", Message().update(1).rect(0, 0, 64, 48, -314).u32(7), CloseKind::kProtocol, "pointer shape"},
-      {"bad Tight filter", Message().update(1).rect(0, 0, 8, 8, 7).u8(0x40).u8(9), CloseKind::kProtocol, "filter"},
-      {"bad Tight stream", Message().update(1).rect(0, 0, 8, 8, 7).u8(0).u8(20).repeat(0xee, 20), CloseKind::kProtocol,
-       "nflate"},
-      {"bad ZRLE stream", Message().update(1).rect(0, 0, 8, 8, 16).u32(20).repeat(0xee, 20), CloseKind::kProtocol,
-       "not valid VNC"},
-  };
-  for (const Hostile& hostile : cases) {
-    SCOPED_TRACE(hostile.name);
-    const Closed closed = closedAfterHandshakeAnd(hostile.bytes);
-    EXPECT_EQ(closed.kind, hostile.kind) << closed.message;
-    EXPECT_THAT(closed.message, HasSubstr(hostile.says));
-  }
-}
-
 TEST(HostileServer, CannotMakeTheNameGiant) {
   Message greeting;
   const std::vector<std::uint8_t> usual = FakeConnection::greeting({64, 48}, "").bytes();
@@ -134,6 +87,57 @@ TEST(HostileServer, IsReadOnAfterAColourMap) {
   });
   DesktopMirror mirror(server.address());
   EXPECT_TRUE(mirror.pumpUntil([&] { return mirror.last<Bell>().has_value(); })) << mirror.summary();
+}
+
+// Without anybody taking what arrives.
+TEST(HostileServer, CannotFillTheMemoryWithEvents) {
+  constexpr int kShapes = 400;
+  Message update = Message().update(kShapes);
+  for (int i = 0; i < kShapes; ++i) update.rect(0, 0, 64, 64, -314).u32(0).repeat(0x44, 4 * 64 * 64);
+  Message rest;
+  for (int i = 0; i < 300; ++i) {
+    rest.u8(2).u8(3).repeat(0, 3).u32(1000).repeat('x', 1000).update(1).rect(i, i, 0, 0, -232).update(1);
+    rest.rect(0, 0, 9 + i, 9, -223);
+  }
+  std::atomic<bool> sent = false;
+  const FakeVncServer server([&](FakeConnection& client) {
+    client.shakeHands({9, 9});
+    client.send(update);
+    client.send(rest);
+    sent = true;
+    client.drain(std::chrono::seconds(20));
+  });
+  SessionOptions options;
+  options.server = parseServerAddress(server.address());
+  FrameBelt belt(nullptr);
+  Session session(options, belt, nullptr);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (!sent && std::chrono::steady_clock::now() < deadline) {
+    if (Batch* batch = belt.take()) belt.release(batch);
+    std::this_thread::yield();
+  }
+  EXPECT_TRUE(sent);
+  const std::vector<SessionEvent> events = session.takeEvents();
+  ASSERT_FALSE(events.empty());
+  EXPECT_LE(events.size(), 50u);
+  EXPECT_THAT(events.front(), ::testing::VariantWith<Connected>(::testing::_));
+}
+
+// A byte now and then is not enough to be kept waiting for.
+TEST(HostileServer, CannotDragTheHandshakeOut) {
+  const FakeVncServer server([](FakeConnection& client) {
+    client.send(Message().text("RFB 003.008\n").u8(255));
+    while (true) {
+      client.send(Message().u8(99));
+      client.drain(std::chrono::milliseconds(20));
+    }
+  });
+  SessionOptions options;
+  options.server = parseServerAddress(server.address());
+  options.connectTimeout = std::chrono::milliseconds(300);
+  DesktopMirror mirror(options);
+  EXPECT_TRUE(mirror.pumpUntil([&] { return mirror.last<Closed>().has_value(); })) << mirror.summary();
+  EXPECT_EQ(mirror.last<Closed>().value_or(Closed{}).kind, CloseKind::kUnreachable) << mirror.summary();
 }
 
 // Updates with the right heads and nonsense in them, in the encodings that are asked for.

@@ -8,14 +8,12 @@
 #include <span>
 #include <utility>
 
-#include "viewer/vnc/rfb_failure.h"
+#include "viewer/vnc/event_queue.h"
 #include "viewer/vnc/rfb_handshake.h"
 #include "viewer/vnc/rfb_messages.h"
 #include "viewer/vnc/rfb_state.h"
+#include "viewer/vnc/rfb_update.h"
 #include "viewer/vnc/text_encoding.h"
-
-// Exported, but in no header.
-extern "C" void DefaultSupportedMessages(rfbClient* client);
 
 namespace pixelflex::viewer {
 namespace {
@@ -23,38 +21,48 @@ namespace {
 constexpr std::uint32_t kMaxClipboardBytes = 1u << 20;      // from the server
 constexpr std::size_t kMaxSentClipboardBytes = 256u << 10;  // what TigerVNC's server accepts
 
-enum ServerMessage : std::uint8_t { kFramebufferUpdate = 0, kSetColourMapEntries = 1, kBell = 2, kServerCutText = 3 };
+enum ServerMessage : std::uint8_t {
+  kFramebufferUpdate = 0,
+  kSetColourMapEntries = 1,
+  kBell = 2,
+  kServerCutText = 3,
+  kEndOfContinuousUpdates = 150,
+  kFence = 248,
+};
+
+constexpr std::size_t kMaxFenceBytes = 64;  // as the protocol has it
+constexpr std::uint32_t kFenceRequest = 1u << 31;
+constexpr std::uint32_t kFenceBlocks = 3;  // the flags that a client like this one, which does one thing at a time, has
 
 // libvncclient goes on from here, as if the handshake had been its own.
 void adopt(RfbState& rfb, Handshake handshake) {
-  DefaultSupportedMessages(rfb.client);
   rfb.desktopName = utf8FromEither(handshake.desktopName);
   rfb.security = std::move(handshake.security);
   rfb.tls = std::move(handshake.tls);
   if (rfb.tls != nullptr) rfb.client->tlsSession = rfb.tls->handle();
-  rfb.client->si.framebufferWidth = static_cast<std::uint16_t>(handshake.desktop.width);
-  rfb.client->si.framebufferHeight = static_cast<std::uint16_t>(handshake.desktop.height);
+  rfb.resize(handshake.desktop);
 }
 
 void requestFirstPicture(RfbState& rfb) {
-  rfb.client->width = rfb.client->si.framebufferWidth;
-  rfb.client->height = rfb.client->si.framebufferHeight;
-  rfb.client->updateRect = {0, 0, rfb.client->width, rfb.client->height};
-  if (!rfb.allocate()) rfb.fail();
   rfb.write(setPixelFormatMessage());
   rfb.write(setEncodingsMessage(rfb.options.lossless));
-  if (!SendFramebufferUpdateRequest(rfb.client, 0, 0, rfb.client->width, rfb.client->height, FALSE)) rfb.fail();
+  rfb.requestUpdate(false);
 }
 
-void readUpdate(RfbState& rfb) {
-  // The type byte goes back to where libvncclient took it from: it reads the whole message itself.
-  --rfb.client->bufoutptr;
-  ++rfb.client->buffered;
-  rfb.insideUpdate = true;
-  if (!HandleRFBServerMessage(rfb.client)) rfb.fail();
-  rfb.insideUpdate = false;
-  if (rfb.log.damaged())
-    throw SessionError(CloseKind::kProtocol, rfb.where + " sent a damaged update: " + rfb.log.last());
+// A server that has this message sends it once to say that it can send updates unasked.
+void useContinuousUpdates(RfbState& rfb) {
+  if (!rfb.continuousUpdates) rfb.enableContinuousUpdates();
+}
+
+// The server measures how far behind this side is. Whatever came before was decoded by now.
+void answerFence(RfbState& rfb) {
+  std::array<std::uint8_t, 8> head{};  // padding, flags, length
+  rfb.read(head);
+  const std::uint32_t flags = bigEndian(std::span(head).subspan(3, 4));
+  std::vector<std::uint8_t> payload(head.back());
+  if (payload.size() > kMaxFenceBytes) rfb.refuse("sent a fence that is too long");
+  rfb.read(payload);
+  if ((flags & kFenceRequest) != 0) rfb.write(fenceMessage(flags & kFenceBlocks, payload));
 }
 
 // libvncclient would end the session over a text beyond its limit; here such a text is left out.
@@ -68,7 +76,7 @@ void readClipboard(RfbState& rfb) {
   }
   std::string text(length, '\0');
   rfb.read({reinterpret_cast<std::uint8_t*>(text.data()), text.size()});
-  rfb.events.emplace_back(Clipboard{utf8FromLatin1(text)});
+  appendEvent(rfb.events, Clipboard{utf8FromLatin1(text)});
 }
 
 // Colour maps mean nothing to a true-colour rfb.client, but their bytes must go.
@@ -116,13 +124,16 @@ void RfbClient::handleMessage() {
     case kSetColourMapEntries:
       return skipColourMap(*state_);
     case kBell:
-      state_->events.emplace_back(Bell{});
+      appendEvent(state_->events, Bell{});
       return;
     case kServerCutText:
       return readClipboard(*state_);
+    case kEndOfContinuousUpdates:
+      return useContinuousUpdates(*state_);
+    case kFence:
+      return answerFence(*state_);
     default:
-      throw SessionError(CloseKind::kProtocol, state_->where + " sent a message of unknown type " +
-                                                   std::to_string(type) + " that was not asked for");
+      state_->refuse("sent a message of unknown type " + std::to_string(type) + " that was not asked for");
   }
 }
 
@@ -159,7 +170,7 @@ void RfbClient::send(const Input& input) {
 }
 
 void RfbClient::askForSignOfLife() {
-  if (!SendFramebufferUpdateRequest(state_->client, 0, 0, 1, 1, FALSE)) state_->fail();
+  state_->write(updateRequestMessage(false, {1, 1}));
 }
 
 void RfbClient::giveUp() const {

@@ -24,6 +24,11 @@ thread_local RfbLog* logOfThread = nullptr;
   logOfThread->add(line.data());
 }
 
+bool tellsTheEnd(const std::string& line) {
+  return line == "VNC server closed connection" || line == "Connection timed out" ||
+         line.starts_with("Error reading from TLS");
+}
+
 void installOnce() {
   static std::once_flag once;
   std::call_once(once, [] {
@@ -47,9 +52,8 @@ RfbLog::~RfbLog() {
 void RfbLog::add(std::string line) {
   while (!line.empty() && line.back() == '\n') line.pop_back();
   damaged_ |= line.starts_with("ZRLE decoding failed") || line.find("out of bounds") != std::string::npos;
-  // It adds a made-up errno to what GnuTLS said.
-  const bool told = line.starts_with("read (") && last_.starts_with("Error reading from TLS");
-  if (!told) last_ = std::move(line);
+  // What the connection's end brings with it, made-up error numbers and complaints of missing data, hides it.
+  if (!tellsTheEnd(last_)) last_ = std::move(line);
 }
 
 }  // namespace pixelflex::viewer

@@ -7,18 +7,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the pixel format below is asked for as little-endian");
 
-enum Encoding : std::int32_t {
-  kCopyRect = 1,
-  kTight = 7,
-  kZrle = 16,
-  kQuality8 = -24,
-  kDesktopSize = -223,
-  kLastRect = -224,
-  kPointerPos = -232,
-  kRichCursor = -239,
-  kXCursor = -240,
-  kCompressLevel1 = -255,
-};
+constexpr std::int32_t kQuality8 = -24;
+constexpr std::int32_t kCompressLevel1 = -255;
 
 }  // namespace
 
@@ -34,6 +24,15 @@ void appendNumber(std::vector<std::uint8_t>& message, std::uint32_t value, int b
   }
 }
 
+namespace {
+
+void appendSize(std::vector<std::uint8_t>& message, devices::Size size) {
+  appendNumber(message, static_cast<std::uint32_t>(size.width), 2);
+  appendNumber(message, static_cast<std::uint32_t>(size.height), 2);
+}
+
+}  // namespace
+
 std::vector<std::uint8_t> setPixelFormatMessage() {
   return {0,  0,   0,  0,            // type, padding
           32, 24,  0,  1,            // bits, depth, little-endian, true colour
@@ -46,21 +45,43 @@ std::vector<std::uint8_t> setEncodingsMessage(bool lossless) {
   // every server falls back to it anyway, but libvncserver sends it in whole rows that overrun its buffer beyond 8192
   // pixels. Nothing else that libvncclient decodes: each decoder is one more door for a hostile server.
   // Compression level 1 also switches off TigerVNC's search for pixels that did not change.
-  std::vector<std::int32_t> encodings{kTight,
-                                      kCopyRect,
-                                      kZrle,
+  std::vector<std::int32_t> encodings{kTightEncoding,
+                                      kCopyRectEncoding,
+                                      kZrleEncoding,
                                       kCompressLevel1,
-                                      kLastRect,
-                                      kDesktopSize,
+                                      kLastRectEncoding,
+                                      kDesktopSizeEncoding,
                                       kCursorWithAlphaEncoding,
-                                      kRichCursor,
-                                      kXCursor,
-                                      kPointerPos,
-                                      kVmwareCursorPositionEncoding};
+                                      kRichCursorEncoding,
+                                      kXCursorEncoding,
+                                      kPointerPosEncoding,
+                                      kVmwareCursorPositionEncoding,
+                                      kFenceEncoding,
+                                      kContinuousUpdatesEncoding};
   if (!lossless) encodings.push_back(kQuality8);
   std::vector<std::uint8_t> message{2, 0};  // type, padding
   appendNumber(message, static_cast<std::uint32_t>(encodings.size()), 2);
   for (const std::int32_t encoding : encodings) appendNumber(message, static_cast<std::uint32_t>(encoding), 4);
+  return message;
+}
+
+std::vector<std::uint8_t> updateRequestMessage(bool incremental, devices::Size size) {
+  std::vector<std::uint8_t> message{3, static_cast<std::uint8_t>(incremental ? 1 : 0), 0, 0, 0, 0};
+  appendSize(message, size);
+  return message;
+}
+
+std::vector<std::uint8_t> continuousUpdatesMessage(devices::Size size) {
+  std::vector<std::uint8_t> message{150, 1, 0, 0, 0, 0};
+  appendSize(message, size);
+  return message;
+}
+
+std::vector<std::uint8_t> fenceMessage(std::uint32_t flags, std::span<const std::uint8_t> payload) {
+  std::vector<std::uint8_t> message{248, 0, 0, 0};
+  appendNumber(message, flags, 4);
+  appendNumber(message, static_cast<std::uint32_t>(payload.size()), 1);
+  message.insert(message.end(), payload.begin(), payload.end());
   return message;
 }
 

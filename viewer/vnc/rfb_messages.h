@@ -4,9 +4,23 @@
 #include <span>
 #include <vector>
 
+#include "devices/image/size.h"
+
 namespace pixelflex::viewer {
 
-/// Pseudo-encodings that libvncclient does not know; rfb_client.cpp handles them.
+/// The encodings that are asked for, and no others.
+inline constexpr std::int32_t kRawEncoding = 0;
+inline constexpr std::int32_t kCopyRectEncoding = 1;
+inline constexpr std::int32_t kTightEncoding = 7;
+inline constexpr std::int32_t kZrleEncoding = 16;
+/// Those that carry no pixels.
+inline constexpr std::int32_t kDesktopSizeEncoding = -223;
+inline constexpr std::int32_t kLastRectEncoding = -224;
+inline constexpr std::int32_t kPointerPosEncoding = -232;
+inline constexpr std::int32_t kRichCursorEncoding = -239;
+inline constexpr std::int32_t kXCursorEncoding = -240;
+inline constexpr std::int32_t kFenceEncoding = -312;
+inline constexpr std::int32_t kContinuousUpdatesEncoding = -313;
 inline constexpr std::int32_t kCursorWithAlphaEncoding = -314;
 inline constexpr std::int32_t kVmwareCursorPositionEncoding = 0x574d5666;
 
@@ -15,6 +29,15 @@ inline constexpr std::int32_t kVmwareCursorPositionEncoding = 0x574d5666;
 
 /// Client to server: the encodings, best first. Lossless keeps the server from JPEG.
 [[nodiscard]] std::vector<std::uint8_t> setEncodingsMessage(bool lossless);
+
+/// Client to server: the upper left part of the desktop, of this size; what has changed there, or everything.
+[[nodiscard]] std::vector<std::uint8_t> updateRequestMessage(bool incremental, devices::Size size);
+
+/// Client to server: updates of that part may come unasked from now on.
+[[nodiscard]] std::vector<std::uint8_t> continuousUpdatesMessage(devices::Size size);
+
+/// Client to server: the answer to a fence, with the server's own payload.
+[[nodiscard]] std::vector<std::uint8_t> fenceMessage(std::uint32_t flags, std::span<const std::uint8_t> payload);
 
 /// An unsigned number of at most four bytes in network order.
 [[nodiscard]] std::uint32_t bigEndian(std::span<const std::uint8_t> bytes);

@@ -6,103 +6,34 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <chrono>
 #include <cstring>
-#include <mutex>
 #include <new>
 #include <string>
 #include <utility>
 
 #include "viewer/vnc/connector.h"
-#include "viewer/vnc/rfb_cursor.h"
+#include "viewer/vnc/event_queue.h"
 #include "viewer/vnc/rfb_messages.h"
 
-// libvncclient's own JPEG decoder; exported, but in no header.
+// Exported, but in no header; the first is of libvncclient's own JPEG decoder.
 extern "C" int tjDestroy(void* decoder);
+extern "C" void DefaultSupportedMessages(rfbClient* client);
+extern "C" void ClearClient2Server(rfbClient* client, int message);
 
 namespace pixelflex::viewer {
-namespace {
-
-constexpr int kMaxCursorExtent = 1024;
-
-// Its address names our data among a client's.
-char clientDataTag = 0;
-
-RfbState& stateOf(rfbClient* client) {
-  return *static_cast<RfbState*>(rfbClientGetClientData(client, &clientDataTag));
-}
-
-rfbBool onMalloc(rfbClient* client) noexcept {
-  return stateOf(client).allocate() ? TRUE : FALSE;
-}
-
-void onRect(rfbClient* client, int x, int y, int w, int h) noexcept {
-  RfbState& state = stateOf(client);
-  if (std::exchange(state.pseudoRect, false)) return;
-  state.damage.add(intersect({x, y, x + w, y + h}, boxOf(state.pixelsSize)));
-}
-
-void onFinished(rfbClient* client) noexcept {
-  stateOf(client).updateFinished = true;
-}
-
-void onCursor(rfbClient* client, int hotX, int hotY, int width, int height, int) noexcept {
-  const devices::Size size{width, height};
-  const auto area = static_cast<std::size_t>(size.area());
-  CursorShape shape = cursorFromMask(size, {client->rcSource, 4 * area}, {client->rcMask, area});
-  shape.hotX = hotX;
-  shape.hotY = hotY;
-  stateOf(client).events.emplace_back(std::move(shape));
-  // libvncclient allocates a new mask for each cursor and forgets the old one.
-  std::free(std::exchange(client->rcMask, nullptr));
-}
-
-rfbBool onPointer(rfbClient* client, int x, int y) noexcept {
-  stateOf(client).events.emplace_back(CursorMoved{x, y});
-  return TRUE;
-}
-
-rfbBool onEncoding(rfbClient* client, rfbFramebufferUpdateRectHeader* rect) noexcept {
-  RfbState& state = stateOf(client);
-  const auto encoding = static_cast<std::int32_t>(rect->encoding);
-  if (encoding != kVmwareCursorPositionEncoding && encoding != kCursorWithAlphaEncoding) return FALSE;
-  state.pseudoRect = true;
-  if (encoding == kVmwareCursorPositionEncoding) return onPointer(client, rect->r.x, rect->r.y);
-  try {
-    state.readAlphaCursor({rect->r.w, rect->r.h}, rect->r.x, rect->r.y);
-    return TRUE;
-  } catch (const SessionError& error) {
-    state.failure = error;
-    return FALSE;
-  }
-}
-
-void registerEncodings() {
-  static std::array<int, 3> encodings{kCursorWithAlphaEncoding, kVmwareCursorPositionEncoding, 0};
-  static rfbClientProtocolExtension extension{encodings.data(), onEncoding, nullptr, nullptr, nullptr, nullptr};
-  static std::once_flag once;
-  std::call_once(once, [] { rfbClientRegisterExtension(&extension); });
-}
-
-}  // namespace
-
 RfbState::RfbState(int socket, const SessionOptions& sessionOptions)
     : options(sessionOptions), client(rfbGetClient(8, 3, 4)) {
-  registerEncodings();
   where = describeServer(options.server);
   if (client == nullptr) throw std::bad_alloc();
-  rfbClientSetClientData(client, &clientDataTag, this);
   client->sock = socket;
-  client->MallocFrameBuffer = onMalloc;
-  client->GotFrameBufferUpdate = onRect;
-  client->FinishedFrameBufferUpdate = onFinished;
-  client->GotCursorShape = onCursor;
-  client->HandleCursorPos = onPointer;
+  // It asks for nothing by itself.
+  DefaultSupportedMessages(client);
+  ClearClient2Server(client, rfbFramebufferUpdateRequest);
 }
 
 RfbState::~RfbState() {
-  std::free(client->rcSource);
-  std::free(client->rcMask);
   if (client->tjhnd != nullptr) tjDestroy(client->tjhnd);  // nobody else does
   client->sock = RFB_INVALID_SOCKET;                       // neither is libvncclient's to close
   client->tlsSession = nullptr;
@@ -110,8 +41,11 @@ RfbState::~RfbState() {
 }
 
 void RfbState::fail() const {
-  if (failure) throw SessionError(*failure);
   throw streamFailure(where, insideUpdate, log);
+}
+
+void RfbState::refuse(const std::string& what) const {
+  throw SessionError(CloseKind::kProtocol, where + " " + what);
 }
 
 void RfbState::read(std::span<std::uint8_t> bytes) const {
@@ -128,50 +62,65 @@ void RfbState::discard(std::uint64_t count) const {
   }
 }
 
+void RfbState::giveBack(std::span<const std::uint8_t> bytes) {
+  assert(bytes.size() + client->buffered <= givenBack_.size());
+  std::memmove(&givenBack_[bytes.size()], client->bufoutptr, client->buffered);
+  std::ranges::copy(bytes, givenBack_.begin());
+  client->bufoutptr = reinterpret_cast<char*>(givenBack_.data());
+  client->buffered += static_cast<unsigned>(bytes.size());
+}
+
 void RfbState::write(std::span<const std::uint8_t> message) const {
   if (!WriteToRFBServer(client, reinterpret_cast<const char*>(message.data()), static_cast<unsigned>(message.size()))) {
     fail();
   }
 }
 
-// Pages that nothing was written to take no memory: calloc maps them on demand.
-bool RfbState::allocate() noexcept {
-  const devices::Size size{client->width, client->height};
+void RfbState::requestUpdate(bool incremental) const {
+  write(updateRequestMessage(incremental, pixelsSize));
+}
+
+void RfbState::enableContinuousUpdates() {
+  continuousUpdates = true;
+  write(continuousUpdatesMessage(pixelsSize));
+}
+
+void RfbState::resize(devices::Size size) {
   const std::string extent = std::to_string(size.width) + "x" + std::to_string(size.height);
-  if (size.width <= 0 || size.height <= 0) {
-    failure = SessionError(CloseKind::kProtocol, where + " announces a desktop of " + extent + " pixels");
-    return false;
-  }
+  if (size.width <= 0 || size.height <= 0) refuse("announces a desktop of " + extent + " pixels");
   if (size.width > kMaxDesktopExtent || size.height > kMaxDesktopExtent) {
     const std::string most = std::to_string(kMaxDesktopExtent);
-    failure = SessionError(CloseKind::kTooLarge, "the server's desktop is " + extent + "; at most " + most + "x" +
-                                                     most + " is supported; start it with a smaller -geometry");
-    return false;
+    throw SessionError(CloseKind::kTooLarge, "the server's desktop is " + extent + "; at most " + most + "x" + most +
+                                                 " is supported; start it with a smaller -geometry");
   }
-  std::unique_ptr<std::uint8_t, Free> fresh(
-      static_cast<std::uint8_t*>(std::calloc(static_cast<std::size_t>(size.area()), 4)));
+  const bool first = pixels == nullptr;
+  if (!first && size == pixelsSize) return;
+  // Pages that nothing was written to take no memory: calloc maps them on demand.
+  Pixels fresh(static_cast<std::uint8_t*>(std::calloc(static_cast<std::size_t>(size.area()), 4)));
   if (fresh == nullptr) {
-    failure = SessionError(CloseKind::kTooLarge, "not enough memory for the server's desktop of " + extent);
-    return false;
+    throw SessionError(CloseKind::kTooLarge, "not enough memory for the server's desktop of " + extent);
   }
-  const devices::Size common{std::min(size.width, pixelsSize.width), std::min(size.height, pixelsSize.height)};
-  for (int y = 0; y < common.height; ++y) {
-    std::memcpy(
-        fresh.get() + std::size_t{4} * static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width),
-        pixels.get() + std::size_t{4} * static_cast<std::size_t>(y) * static_cast<std::size_t>(pixelsSize.width),
-        std::size_t{4} * static_cast<std::size_t>(common.width));
+  adopt(std::move(fresh), size);
+  if (first) return;
+  damage.add(boxOf(size));
+  appendEvent(events, Resized{size});
+}
+
+void RfbState::adopt(Pixels fresh, devices::Size size) {
+  const auto rowBytes = [](int width) { return std::size_t{4} * static_cast<std::size_t>(width); };
+  const int commonHeight = std::min(size.height, pixelsSize.height);
+  for (std::size_t y = 0; y < static_cast<std::size_t>(commonHeight); ++y) {
+    std::memcpy(fresh.get() + y * rowBytes(size.width), pixels.get() + y * rowBytes(pixelsSize.width),
+                rowBytes(std::min(size.width, pixelsSize.width)));
   }
-  const bool changed = pixels != nullptr && size != pixelsSize;
   pixels = std::move(fresh);
   pixelsSize = size;
+  client->width = size.width;
+  client->height = size.height;
+  client->updateRect = {0, 0, size.width, size.height};
   client->frameBuffer = pixels.get();
   firstPixel.reset();
   damage.clear();
-  if (changed) {
-    damage.add(boxOf(size));
-    events.emplace_back(Resized{size});
-  }
-  return true;
 }
 
 // Between two attempts libvncclient waits for a tenth of a second; it gives up at the eleventh in vain when told to
@@ -191,21 +140,6 @@ bool RfbState::isOnlySignOfLife() {
   firstPixel.emplace();
   std::copy_n(pixels.get(), firstPixel->size(), firstPixel->begin());
   return before == firstPixel && damage.boxes().size() == 1 && damage.boxes().front() == Box{0, 0, 1, 1};
-}
-
-void RfbState::readAlphaCursor(devices::Size size, int hotX, int hotY) {
-  std::array<std::uint8_t, 4> encoding{};
-  read(encoding);
-  if (bigEndian(encoding) != 0 || size.width > kMaxCursorExtent || size.height > kMaxCursorExtent) {
-    throw SessionError(CloseKind::kProtocol, where + " sent a pointer shape that cannot be read");
-  }
-  std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(size.area()));
-  read(rgba);
-  CursorShape shape = cursorFromPremultiplied(size, rgba);
-  pointerDrawn = size.area() == 0;  // or the pointer is hidden, which looks the same
-  shape.hotX = hotX;
-  shape.hotY = hotY;
-  events.emplace_back(std::move(shape));
 }
 
 }  // namespace pixelflex::viewer

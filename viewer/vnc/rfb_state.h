@@ -19,12 +19,12 @@ struct _rfbClient;  // NOLINT(bugprone-reserved-identifier): libvncclient's name
 
 namespace pixelflex::viewer {
 
-/// A libvncclient client on a connected socket, and what its callbacks noted. libvncclient calls back through C, which
-/// no exception may cross: the callbacks only note what happened, and the calls around them throw SessionError.
+/// A libvncclient client on a connected socket, and what it and its reader know.
 struct RfbState {
   struct Free {
     void operator()(void* memory) const { std::free(memory); }
   };
+  using Pixels = std::unique_ptr<std::uint8_t, Free>;
 
   /// `socket` and `options` stay the caller's and must outlive this.
   RfbState(int socket, const SessionOptions& options);
@@ -34,18 +34,25 @@ struct RfbState {
 
   void read(std::span<std::uint8_t> bytes) const;
   void discard(std::uint64_t count) const;
+  /// The next bytes to be read, before those that the server has sent.
+  void giveBack(std::span<const std::uint8_t> bytes);
   void write(std::span<const std::uint8_t> message) const;
-  /// Throws what a callback noted, or else what the log tells.
+  /// Throws what the log tells.
   [[noreturn]] void fail() const;
+  /// Throws that the server did something that makes no sense: "sent …".
+  [[noreturn]] void refuse(const std::string& what) const;
 
-  /// Gives libvncclient a frame buffer of its present size; false and `failure` if that cannot be. What was shown stays
-  /// shown until the server has sent the new picture.
-  bool allocate() noexcept;
+  /// Of the whole desktop: what has changed, or everything.
+  void requestUpdate(bool incremental) const;
+  /// From here on the server sends updates of the whole desktop without being asked.
+  void enableContinuousUpdates();
+  /// Gives libvncclient a frame buffer of this size. What was shown stays shown until the server has sent the new
+  /// picture. Throws SessionError for sizes that cannot be.
+  void resize(devices::Size size);
   /// From here on a read ends with an error when nothing comes for as long as the session is patient.
   void limitReading() const;
   /// The damage is the first pixel and nothing else, and that has the colour that it had when this was last called.
   [[nodiscard]] bool isOnlySignOfLife();
-  void readAlphaCursor(devices::Size size, int hotX, int hotY);
 
   RfbLog log;
   const SessionOptions& options;
@@ -54,7 +61,7 @@ struct RfbState {
   ConnectionSecurity security;
   std::unique_ptr<TlsSession> tls;  // libvncclient reads and writes through it; null: in the clear
   _rfbClient* client = nullptr;
-  std::unique_ptr<std::uint8_t, Free> pixels;
+  Pixels pixels;
   devices::Size pixelsSize;
   std::optional<std::array<std::uint8_t, 3>> firstPixel;  // as of the last update of this frame buffer
   Region damage;
@@ -62,9 +69,14 @@ struct RfbState {
   bool updateFinished = false;
   bool pointerUsed = false;   // this session has put it somewhere
   bool pointerDrawn = false;  // by the server, into the desktop
-  bool pseudoRect = false;    // the next rectangle reported is none
-  std::optional<SessionError> failure;
+  bool continuousUpdates = false;
   std::vector<SessionEvent> events;
+
+ private:
+  void adopt(Pixels fresh, devices::Size size);
+
+  // As much as libvncclient reads ahead, and the head of a message before it.
+  std::array<std::uint8_t, 8192 + 16> givenBack_{};
 };
 
 }  // namespace pixelflex::viewer

@@ -2,10 +2,9 @@
 
 #include <sys/socket.h>
 
-#include <algorithm>
-#include <iterator>
 #include <utility>
 
+#include "viewer/vnc/event_queue.h"
 #include "viewer/vnc/session_error.h"
 
 namespace pixelflex::viewer {
@@ -70,7 +69,7 @@ void SessionDesk::post(std::vector<SessionEvent> events) {
   {
     const std::lock_guard lock(mutex_);
     if (halted_) return;
-    std::ranges::move(events, std::back_inserter(events_));
+    for (SessionEvent& event : events) appendEvent(events_, std::move(event));
   }
   if (wake_) wake_();
 }
