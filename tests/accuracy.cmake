@@ -18,9 +18,9 @@ set_tests_properties(accuracy_pair accuracy_inset PROPERTIES LABELS "accuracy;gl
 # Light of the wall, photographed again by the audience.
 pixelflex_library(pixelflex_test_light
   HEADERS accuracy/light_figures.h accuracy/light_measurement.h accuracy/light_measures.h accuracy/light_rigs.h
-    accuracy/report_light.h accuracy/shown_wall.h accuracy/text_likeness.h accuracy/wall_view.h
+    accuracy/report_light.h accuracy/seen_wall.h accuracy/shown_wall.h accuracy/text_likeness.h accuracy/wall_view.h
   SOURCES accuracy/light_figures.cpp accuracy/light_measurement.cpp accuracy/light_measures.cpp accuracy/light_rigs.cpp
-    accuracy/report_light.cpp accuracy/shown_wall.cpp accuracy/text_likeness.cpp accuracy/wall_view.cpp gl/plans.cpp
+    accuracy/report_light.cpp accuracy/seen_wall.cpp accuracy/shown_wall.cpp accuracy/text_likeness.cpp accuracy/wall_view.cpp gl/plans.cpp
   PUBLIC pixelflex_test_calibration pixelflex_test_support pixelflex_plan pixelflex_renderer
   PRIVATE pixelflex_photometric fmt::fmt)
 target_compile_definitions(pixelflex_test_light PRIVATE PIXELFLEX_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

@@ -25,10 +25,13 @@ enum class Figure : std::size_t {
   kSlipped,
   kTextFine,
   kText,
+  kTextSoft,
   kBanding16,
   kBanding64,
+  kWhite,
+  kContrast,
 };
-inline constexpr std::size_t kFigureCount = 18;
+inline constexpr std::size_t kFigureCount = 21;
 
 /// The columns: as PixelFlex shows it, without any correction of light, and by the report's method.
 enum class Correction : std::size_t { kMatched, kNone, kReport };

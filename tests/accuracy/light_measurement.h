@@ -9,10 +9,12 @@
 
 namespace pixelflex::calib {
 
-/// Calibrates a rig in a folder of its own and adds every figure of its light: ours with even black at uniformity 1 and
-/// 0.5, of steps the larger of the two; then without correction and by the report's method, if `others`. `tell` gets a
-/// line for each figure. Throws what calibration and renderer throw.
-void measureLight(const LightRig& kind, std::uint32_t seed, bool others, LightFigures& figures,
-                  const std::function<void(const std::string&)>& tell);
+/// Gets every figure as it is measured. `where`: the rig's kind, its seed, and the place on the desktop if it is one.
+using Findings = std::function<void(Figure figure, Correction correction, double value, const std::string& where)>;
+
+/// Calibrates a rig in a folder of its own and measures its light: ours with even black at uniformity 1 and 0.5, steps
+/// at both; then without correction and by the report's method, if `others`. Throws what calibration and renderer
+/// throw.
+void measureLight(const LightRig& kind, std::uint32_t seed, bool others, const Findings& findings);
 
 }  // namespace pixelflex::calib

@@ -36,6 +36,12 @@ Rig withUnlikeLight(Rig rig, std::uint32_t seed) {
   return rig;
 }
 
+Rig focused(Rig rig) {
+  constexpr double kSharp = 0.3;  // projector pixels: what optics and the gaps between pixels leave
+  for (auto& projector : rig.projectors) projector.defocus = kSharp;
+  return rig;
+}
+
 Rig slipped(Rig rig, double pixels) {
   for (std::size_t i = 1; i < rig.projectors.size(); i += 2) rig.projectors[i].optics.principal.x += pixels;
   return rig;

@@ -23,6 +23,9 @@ struct LightRig {
 /// 15 % and gains by 8 % either way, gamma 1.9 to 2.5 with a toe, 0.1 to 0.4 % of leak, 20 to 40 % of vignetting.
 [[nodiscard]] Rig withUnlikeLight(Rig rig, std::uint32_t seed);
 
+/// The same rig with every projector in focus.
+[[nodiscard]] Rig focused(Rig rig);
+
 /// The same rig after every other projector's picture has slipped sideways by so many of its pixels.
 [[nodiscard]] Rig slipped(Rig rig, double pixels);
 

@@ -12,8 +12,7 @@ namespace {
 
 constexpr double kEye = 2;             // desktop pixels, sigma
 constexpr double kStretchDegrees = 1;  // along a border
-constexpr double kRim = 8;     // desktop pixels left out at the display's edge, where the picture ends on pixels
-constexpr double kClear = 16;  // projector pixels that a block keeps from a border to lie clear of it
+constexpr double kClear = 16;          // projector pixels that a block keeps from a border to lie clear of it
 
 devices::Size sizeOf(const Display& display, double scale) {
   return {static_cast<int>(std::lround(display.resolution.width / scale)),

@@ -62,7 +62,8 @@ class WallView {
   std::vector<WallBlock> blocks_;
 };
 
-/// The display without 8 desktop pixels at its edge, where the picture ends on whole pixels of the projectors.
+inline constexpr double kRim = 8;
+/// The display without kRim desktop pixels at its edge, where the picture ends on whole pixels of the projectors.
 [[nodiscard]] Display withoutRim(const Display& display);
 
 /// ITU-R BT.709.

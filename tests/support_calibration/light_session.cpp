@@ -7,8 +7,8 @@
 
 namespace pixelflex::calib {
 
-LightSession::LightSession(SimulatedWall& room, std::filesystem::path folder)
-    : folder_(std::move(folder)), rig_(calibrateRig(room, folder_, Method::kBlobs)) {
+LightSession::LightSession(SimulatedWall& room, std::filesystem::path folder, const Blend& blend)
+    : folder_(std::move(folder)), rig_(calibrateRig(room, folder_, Method::kBlobs, blend)) {
   if (rig_.calibration.projectors.size() != room.projectorCount()) {
     throw std::runtime_error("not every projector could be calibrated");
   }

@@ -11,9 +11,9 @@ namespace pixelflex::calib {
 /// photographs.
 class LightSession {
  public:
-  /// Calibrates all but the light into `folder`, with blobs. The room must outlive this. Throws std::runtime_error
-  /// unless every projector could be calibrated.
-  LightSession(SimulatedWall& room, std::filesystem::path folder);
+  /// Calibrates all into `folder`, with blobs. The blend must match light, so that all is photographed that this needs.
+  /// The room must outlive this. Throws std::runtime_error unless every projector could be calibrated.
+  LightSession(SimulatedWall& room, std::filesystem::path folder, const Blend& blend);
 
   /// Blend and response again. Files of the light before are overwritten: read them first.
   void match(const Blend& blend);
