@@ -15,6 +15,9 @@ struct LuminanceTarget {
   double kept = 1;            // of the light that the shares alone would give: what the target costs
 };
 
+/// The width of the display as the audience sees it from a usual place.
+inline constexpr double kDisplayDegrees = 60;
+
 /// The steepest relative change of the target per degree of view: 10 % (uniformity 0: only what hides seams), 0.8 % (a
 /// half: not seen), 0 (1: the same luminance everywhere).
 [[nodiscard]] double luminanceGradientPerDegree(double uniformity);

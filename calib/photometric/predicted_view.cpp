@@ -35,11 +35,11 @@ double part(const Image16& map, glm::dvec2 inFrame, double whenEmpty, double ful
 }
 
 /// The primaries' share of the projector's white, channel by channel: each row sums to one.
-Matrix3 relativeTo(const Matrix3& primaries) {
-  if (std::ranges::all_of(primaries, [](double value) { return value == 0; })) return {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  Matrix3 relative = primaries;
+Matrix3 relativeTo(const std::optional<Matrix3>& primaries) {
+  if (!primaries) return {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  Matrix3 relative = *primaries;
   for (std::size_t row = 0; row < 3; ++row) {
-    const double white = primaries.at(3 * row) + primaries.at(3 * row + 1) + primaries.at(3 * row + 2);
+    const double white = relative.at(3 * row) + relative.at(3 * row + 1) + relative.at(3 * row + 2);
     for (std::size_t column = 0; column < 3; ++column) relative.at(3 * row + column) /= white;
   }
   return relative;
@@ -180,13 +180,17 @@ void PredictedView::addLight(std::size_t projector, const Spot& spot, const std:
   }
 }
 
+double luminanceOf(glm::dvec3 light) {
+  return kCameraLuminance[0] * light.x + kCameraLuminance[1] * light.y + kCameraLuminance[2] * light.z;
+}
+
 ImageF luminanceOf(const ImageF& view) {
   assert(view.channels() == 3);
   ImageF luminance(view.size(), 1);
+  const auto light = view.samples();
   for (std::size_t i = 0; i < luminance.samples().size(); ++i) {
-    double sum = 0;
-    for (std::size_t c = 0; c < 3; ++c) sum += kCameraLuminance.at(c) * view.samples()[3 * i + c];
-    luminance.samples()[i] = static_cast<float>(sum);
+    luminance.samples()[i] =
+        static_cast<float>(luminanceOf(glm::dvec3(light[3 * i], light[3 * i + 1], light[3 * i + 2])));
   }
   return luminance;
 }

@@ -19,11 +19,11 @@ namespace pixelflex::calib {
 
 /// What is known of one projector's light, and what is done to it.
 struct StoredLight {
-  devices::ImageF white;       // a camera's three channels of white above black, stretched over the frame; the unit is
-                               // common to all projectors, nothing is zero
-  Matrix3 primaries{};         // columns: what full red, green and blue add to the mean white; all zero: not known, one
-                               // channel of the camera sees one of the projector
-  std::optional<double> leak;  // black over white above black; none: not known, counted as 0
+  devices::ImageF white;  // a camera's three channels of white above black, stretched over the frame; the unit is
+                          // common to all projectors, nothing is zero
+  std::optional<Matrix3> primaries;       // columns: what full red, green and blue add to the mean white; none: one
+                                          // channel of the camera sees one of the projector
+  std::optional<double> leak;             // black over white above black; none: not known, counted as 0
   std::optional<ResponseCurve> response;  // none: sRGB
   devices::Image16 share;                 // blend mask, 65535 = 1
   Matrix3 colour{1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -102,7 +102,8 @@ class PredictedView {
   std::vector<std::vector<Spot>> spots_;  // by projector
 };
 
-/// Luminance of a view by the camera's channels (kCameraLuminance).
+/// Luminance by the camera's channels (kCameraLuminance), of a colour and of a view.
+[[nodiscard]] double luminanceOf(glm::dvec3 light);
 [[nodiscard]] devices::ImageF luminanceOf(const devices::ImageF& view);
 
 /// sRGB's light of a code (IEC 61966-2-1).

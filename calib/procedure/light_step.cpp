@@ -18,9 +18,8 @@ namespace {
 using devices::Image16;
 using devices::ImageF;
 
-constexpr int kNodesAcross = 96;     // of a projector's light field and gain map
-constexpr int kRasterAcross = 480;   // of the display
-constexpr double kViewDegrees = 60;  // the display's width as the audience sees it from a usual place
+constexpr int kNodesAcross = 96;    // of a projector's light field and gain map
+constexpr int kRasterAcross = 480;  // of the display
 
 WallRaster rasterOf(const Display& display) {
   const double pitch = (display.right - display.left) / kRasterAcross;
@@ -96,7 +95,7 @@ class LightMatcher {
   LightResult match(const std::vector<double>& leak) {
     matchColour();
     fillMaps(leak);
-    const double perDegree = kRasterAcross / kViewDegrees;
+    const double perDegree = kRasterAcross / kDisplayDegrees;
     LightResult result;
     if (wall_.blend.evenBlack) makeRoomForBlack(leak, perDegree);
     const LuminanceTarget target = luminanceTarget(maps_, wall_.blend.uniformity.value_or(0), perDegree);

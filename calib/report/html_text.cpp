@@ -54,6 +54,21 @@ std::string plain(double value) {
   return fmt::format("{:.6g}", value);
 }
 
+std::string chip(const std::string& colour) {
+  return fmt::format("<span class=\"chip\" style=\"background:{}\"></span>", colour);
+}
+
+std::string fact(const std::string& term, const std::string& figure, const std::string& note) {
+  return fmt::format("<div><dt>{}</dt><dd>{}<small>{}</small></dd></div>\n", term, figure, note);
+}
+
+std::string openTable(const std::string& label, const std::vector<std::string>& heads) {
+  std::string html = fmt::format(
+      "<div class=\"scroll sheet\" role=\"region\" aria-label=\"{0}\" tabindex=\"0\"><table><thead><tr>", label);
+  for (const auto& head : heads) html += "<th scope=\"col\">" + head + "</th>";
+  return html + "</tr></thead>\n<tbody>\n";
+}
+
 std::string unitsOf(const Wall& wall) {
   return wall.isFlat() ? "px" : wall.surface.wallUnits();
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "calib/procedure/summary.h"
 
@@ -25,5 +26,15 @@ namespace pixelflex::calib {
 
 /// Wall units in words: those of wall.yaml; desktop pixels on a flat wall.
 [[nodiscard]] std::string unitsOf(const Wall& wall);
+
+/// A small square of a projector's colour, before its name.
+[[nodiscard]] std::string chip(const std::string& colour);
+
+/// One of the figures at a glance inside <dl class="facts">.
+[[nodiscard]] std::string fact(const std::string& term, const std::string& figure, const std::string& note);
+
+/// A table up to its first row; `heads` are HTML. kCloseTable ends it.
+[[nodiscard]] std::string openTable(const std::string& label, const std::vector<std::string>& heads);
+inline constexpr const char* kCloseTable = "</tbody></table></div>\n";
 
 }  // namespace pixelflex::calib

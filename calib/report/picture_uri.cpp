@@ -75,6 +75,13 @@ std::string photographUri(const devices::Image8& photo, const PixelBox& box, int
   return encoded(picture, ".jpg", "jpeg", {cv::IMWRITE_JPEG_QUALITY, 80});
 }
 
+std::string jpegUri(const devices::Image8& picture) {
+  assert(picture.channels() == 3);
+  cv::Mat pixels;
+  cv::cvtColor(viewOf(picture), pixels, cv::COLOR_RGB2BGR);
+  return encoded(pixels, ".jpg", "jpeg", {cv::IMWRITE_JPEG_QUALITY, 88});
+}
+
 std::string pictureUri(const devices::Image8& picture) {
   cv::Mat pixels = viewOf(picture).clone();
   if (picture.channels() == 4) cv::cvtColor(pixels, pixels, cv::COLOR_RGBA2BGRA);

@@ -17,6 +17,9 @@ struct PixelBox {
 /// `box` must lie within the photograph.
 [[nodiscard]] std::string photographUri(const devices::Image8& photo, const PixelBox& box, int width);
 
+/// A colour picture as it is, as a JPEG "data:" URI: for smooth ones.
+[[nodiscard]] std::string jpegUri(const devices::Image8& picture);
+
 /// A grey or red-green-blue-alpha picture as a PNG "data:" URI.
 [[nodiscard]] std::string pictureUri(const devices::Image8& picture);
 

@@ -6,32 +6,46 @@
 
 #include "calib/procedure/verdicts.h"
 #include "calib/report/html_text.h"
+#include "calib/report/light_drawing.h"
+#include "calib/report/light_part.h"
 #include "calib/report/photo_drawing.h"
 #include "calib/report/plan_drawing.h"
 #include "calib/report/projector_drawing.h"
 #include "calib/report/report_style.h"
 #include "calib/report/report_tables.h"
 #include "calib/report/wall_drawing.h"
-#include "devices/image/image_error.h"
-#include "devices/image/png_file.h"
+#include "calib/report/wall_light.h"
 
 namespace pixelflex::calib {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string maskOf(const fs::path& folder, const ProjectorCalibration& projector) {
-  if (!projector.alpha) return "";
-  try {
-    return drawMask(devices::readPng16(folder / *projector.alpha));
-  } catch (const devices::ImageError&) {
-    return "";  // a report on what is there; `pixelflex check` names what is not
-  }
-}
-
 std::string figure(const std::string& place, const std::string& drawing, const std::string& caption) {
   if (drawing.empty()) return "";
   return fmt::format("<figure class=\"{}\">\n{}<figcaption>{}</figcaption></figure>\n", place, drawing, caption);
+}
+
+std::string maskOf(const fs::path& folder, const ProjectorCalibration& projector) {
+  const devices::Image16 mask = readStoredMap(folder, projector.alpha);
+  return mask.empty() ? "" : drawMask(mask);
+}
+
+/// Response, gain and lift of black: what is done to a projector's light besides its mask.
+std::string lightFigures(const fs::path& folder, const ProjectorCalibration& projector) {
+  std::string html;
+  if (const auto response = readStoredResponse(folder, projector)) {
+    html += figure(
+        "third", drawResponse(*response, projector.name),
+        fmt::format("Response of the three channels, nearest to the power {:.2f}. Dashed: sRGB.", gammaOf(*response)));
+  }
+  if (!projector.light) return html;
+  const auto gain = drawStretched(readStoredMap(folder, projector.light->gain), "Gain");
+  html += figure("third", gain.picture, fmt::format("Gain: {:.2f} (black) to {:.2f} (white).", gain.least, gain.most));
+  const auto lift = drawStretched(readStoredMap(folder, projector.light->black), "Lift of black");
+  return html + figure("third", lift.picture,
+                       fmt::format("Lift of black: {:.2f} % (black) to {:.2f} % of white (white).",
+                                   100 * kLargestBlackLift * lift.least, 100 * kLargestBlackLift * lift.most));
 }
 
 std::string photoCaption(const FitQuality& quality) {
@@ -40,7 +54,7 @@ std::string photoCaption(const FitQuality& quality) {
                      missing > 0 ? ", crosses where one is missing" : "");
 }
 
-std::string numbers(const ProjectorSummary& p) {
+std::string numbers(const ProjectorSummary& p, bool responseMeasured) {
   std::string list = "<dl class=\"numbers\">\n";
   const auto add = [&](const char* term, const std::string& text) {
     list += fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, text);
@@ -52,6 +66,7 @@ std::string numbers(const ProjectorSummary& p) {
   if (q.deviation > 0) add("model ±", fmt::format("{:.3f} px", q.deviation));
   if (q.cameraScale > 0) add("camera px per px", fmt::format("{:.2f}", q.cameraScale));
   if (p.desktopDensity > 0) add("px per desktop px", fmt::format("{:.2f}", p.desktopDensity));
+  if (!responseMeasured) add("response", "sRGB assumed");
   add("overlapped", fmt::format("{:.1f} %", p.overlapPercent));
   add("in the display", fmt::format("{:.1f} %", p.displayPercent));
   return list + "</dl>\n";
@@ -83,7 +98,7 @@ class ReportPage {
         findings_(judge(wall, calibration, summary)) {}
 
   [[nodiscard]] std::string html() const {
-    return head() + opening() + wallPart() + densityPart() + tables() + projectors() +
+    return head() + opening() + wallPart() + densityPart() + light() + tables() + projectors() +
            "<section class=\"part\"><h2>What the words mean</h2>\n<div class=\"sheet\">" + termsHtml() +
            "</div></section>\n<footer>Written by pixelflex calibrate.</footer>\n</main></body></html>\n";
   }
@@ -138,6 +153,11 @@ class ReportPage {
            "</div></section>\n";
   }
 
+  [[nodiscard]] std::string light() const {
+    const auto light = readWallLight(folder_, wall_, calibration_);
+    return light ? lightPart(*light, calibration_, summary_) : "";
+  }
+
   [[nodiscard]] std::string tables() const {
     const std::string measurement = measurementTable(wall_, calibration_);
     return "<section><h2>Overlaps</h2>\n" + seamTable(summary_, findings_) + "</section>\n<section><h2>Figures</h2>\n" +
@@ -164,13 +184,13 @@ class ReportPage {
     const std::string residuals = figure(photo.empty() ? "third" : "high", drawResiduals(*projector),
                                          "Residuals: from where a point was shown to where the model has it.");
     html += figure("wide", photo, photoCaption(p.quality)) + residuals;
-    html += "<div class=\"third\">" + numbers(p) + "</div>\n";
+    html += "<div class=\"third\">" + numbers(p, projector->response || projector->flatAt) + "</div>\n";
     if (calibration_.display) {
       const auto density = drawDensity(*projector, *calibration_.display);
       html += figure("third", density.svg,
                      fmt::format("Density: {:.2f} to {:.2f} px per desktop pixel.", density.least, density.most));
     }
-    html += figure("third", maskOf(folder_, *projector), "Blend mask.");
+    html += figure("third", maskOf(folder_, *projector), "Blend mask.") + lightFigures(folder_, *projector);
     return html + "</div>\n<p class=\"sub\">" + modelOf(projector->model) + "</p></article>\n";
   }
 

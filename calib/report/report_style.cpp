@@ -74,6 +74,12 @@ article header { display: flex; flex-wrap: wrap; gap: .2rem .9rem; align-items: 
 .figures { display: grid; grid-template-columns: repeat(12, 1fr); gap: 1rem; align-items: start; }
 .figures > .wide { grid-column: span 7; } .figures > .high { grid-column: span 5; }
 .figures > .third { grid-column: span 4; }
+.facts + .sheet, section > .sheet + .sheet { margin-top: .75rem; }
+.pair { margin: 0 0 1.2rem; } .both { display: grid; grid-template-columns: 1fr 1fr; gap: .2rem .8rem; }
+.charts { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 21rem), 1fr)); gap: 1.2rem; margin-top: .8rem; }
+.line { fill: none; stroke-linejoin: round; } .sum { stroke: var(--ink); } .ideal { stroke: var(--soft); }
+.red { stroke: #d0342c; } .green { stroke: #2e9e4f; } .blue { stroke: #3a6fe0; }
+.grid { fill: none; stroke: var(--line); } .shared { fill: var(--foot); fill-opacity: .18; } .chart text { fill: var(--soft); }
 .numbers { display: grid; grid-template-columns: 1fr auto; gap: .15rem 1rem; margin: 0; font-size: .875rem; }
 .numbers dt { color: var(--soft); } .numbers dd { margin: 0; text-align: right; }
 .terms { columns: 20rem; column-gap: 2rem; font-size: .875rem; margin: 0; } .terms dt { font-weight: 600; }
@@ -82,7 +88,7 @@ footer { margin-top: 2.5rem; color: var(--soft); font-size: .8rem; }
 @media (max-width: 52rem) {
   .figures > .wide, .figures > .high { grid-column: span 12; } .figures > .third { grid-column: span 6; }
 }
-@media (max-width: 30rem) { code { white-space: normal; } .figures > .third { grid-column: span 12; } th, td { padding: .35rem .4rem; } }
+@media (max-width: 30rem) { .both { grid-template-columns: 1fr; } code { white-space: normal; } .figures > .third { grid-column: span 12; } th, td { padding: .35rem .4rem; } }
 @page { size: A4; margin: 14mm 13mm; }
 @media print {
   :root { color-scheme: light;

@@ -100,7 +100,7 @@ TEST(PredictedProjector, LinearTransferTakesCodesAsLight) {
 TEST(PredictedProjector, PrimariesColourWhatEachChannelAdds) {
   StoredLight light = plainLight({100, 200, 300});
   // Of the mean white 2, 4, 8; at this place the white is 50 times that in red and green, 37.5 times in blue.
-  light.primaries = {1.5, 0.5, 0, 0.4, 3.2, 0.4, 0, 1, 7};
+  light.primaries = Matrix3{1.5, 0.5, 0, 0.4, 3.2, 0.4, 0, 1, 7};
   const PredictedProjector projector(light, Transfer::kSrgb);
   const auto place = projector.placeAt({0.5, 0.5});
   expectLight(projector.lightOf(place, {255, 0, 0}, Correction::kWhole), {75, 20, 0});
