@@ -95,7 +95,7 @@ TEST(HostileServer, CannotFillTheMemoryWithEvents) {
   Message update = Message().update(kShapes);
   for (int i = 0; i < kShapes; ++i) update.rect(0, 0, 64, 64, -314).u32(0).repeat(0x44, 4 * 64 * 64);
   Message rest;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 60; ++i) {
     rest.u8(2).u8(3).repeat(0, 3).u32(1000).repeat('x', 1000).update(1).rect(i, i, 0, 0, -232).update(1);
     rest.rect(0, 0, 9 + i, 9, -223);
   }
@@ -121,6 +121,24 @@ TEST(HostileServer, CannotFillTheMemoryWithEvents) {
   ASSERT_FALSE(events.empty());
   EXPECT_LE(events.size(), 50u);
   EXPECT_THAT(events.front(), ::testing::VariantWith<Connected>(::testing::_));
+}
+
+// Every update makes the client ask for the next one.
+TEST(HostileServer, CannotHoldWhoeverItDoesNotListenTo) {
+  Message updates;
+  for (int i = 0; i < 100'000; ++i) updates.update(0);
+  const FakeVncServer server([&updates](FakeConnection& client) {
+    client.send(FakeConnection::greeting({8, 8}));
+    client.send(updates);
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+  });
+  SessionOptions options;
+  options.server = parseServerAddress(server.address());
+  options.patience = std::chrono::milliseconds(1200);
+  DesktopMirror mirror(options);
+  EXPECT_TRUE(mirror.pumpUntil([&] { return mirror.last<Closed>().has_value(); })) << mirror.summary();
+  EXPECT_EQ(mirror.last<Closed>().value_or(Closed{}).kind, CloseKind::kLost);
+  EXPECT_THAT(mirror.last<Closed>().value_or(Closed{}).message, HasSubstr("takes nothing more"));
 }
 
 // A byte now and then is not enough to be kept waiting for.

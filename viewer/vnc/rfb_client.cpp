@@ -153,20 +153,18 @@ FrameView RfbClient::frame() const {
 }
 
 void RfbClient::send(const Input& input) {
-  rfbClient* client = state_->client;
-  bool sent = true;
-  state_->pointerUsed |= std::holds_alternative<PointerInput>(input);
+  const devices::Size desktop = state_->pixelsSize;
   if (const auto* pointer = std::get_if<PointerInput>(&input)) {
-    sent = SendPointerEvent(client, std::clamp(pointer->x, 0, client->width - 1),
-                            std::clamp(pointer->y, 0, client->height - 1), pointer->buttons);
+    state_->pointerUsed = true;
+    state_->write(pointerMessage(std::clamp(pointer->x, 0, desktop.width - 1),
+                                 std::clamp(pointer->y, 0, desktop.height - 1), pointer->buttons));
   } else if (const auto* key = std::get_if<KeyInput>(&input)) {
-    sent = SendKeyEvent(client, key->keysym, key->down ? TRUE : FALSE);
+    state_->write(keyMessage(key->keysym, key->down));
   } else if (const auto* clipboard = std::get_if<ClipboardInput>(&input)) {
     std::string text = latin1FromUtf8(clipboard->text);
     text.resize(std::min(text.size(), kMaxSentClipboardBytes));
-    sent = SendClientCutText(client, text.data(), static_cast<int>(text.size()));
+    state_->write(clipboardMessage(text));
   }
-  if (!sent) state_->fail();
 }
 
 void RfbClient::askForSignOfLife() {

@@ -116,7 +116,7 @@ Handshake shakeHands(int socket, const SessionOptions& options, Deadline deadlin
   if (saysResult) readLoginResult(server, type, version >= kLast);
   server.writeNumber(options.shared ? 1 : 0, 1);
   readServerInit(server, result);
-  if (server.tls() != nullptr) server.tls()->letBlock();
+  if (server.tls() != nullptr) server.tls()->letReadsBlock();
   result.tls = server.takeTls();
   return result;
 }

@@ -26,9 +26,9 @@ void appendNumber(std::vector<std::uint8_t>& message, std::uint32_t value, int b
 
 namespace {
 
-void appendSize(std::vector<std::uint8_t>& message, devices::Size size) {
-  appendNumber(message, static_cast<std::uint32_t>(size.width), 2);
-  appendNumber(message, static_cast<std::uint32_t>(size.height), 2);
+void appendTwo(std::vector<std::uint8_t>& message, int first, int second) {
+  appendNumber(message, static_cast<std::uint32_t>(first), 2);
+  appendNumber(message, static_cast<std::uint32_t>(second), 2);
 }
 
 }  // namespace
@@ -67,13 +67,13 @@ std::vector<std::uint8_t> setEncodingsMessage(bool lossless) {
 
 std::vector<std::uint8_t> updateRequestMessage(bool incremental, devices::Size size) {
   std::vector<std::uint8_t> message{3, static_cast<std::uint8_t>(incremental ? 1 : 0), 0, 0, 0, 0};
-  appendSize(message, size);
+  appendTwo(message, size.width, size.height);
   return message;
 }
 
 std::vector<std::uint8_t> continuousUpdatesMessage(devices::Size size) {
   std::vector<std::uint8_t> message{150, 1, 0, 0, 0, 0};
-  appendSize(message, size);
+  appendTwo(message, size.width, size.height);
   return message;
 }
 
@@ -82,6 +82,25 @@ std::vector<std::uint8_t> fenceMessage(std::uint32_t flags, std::span<const std:
   appendNumber(message, flags, 4);
   appendNumber(message, static_cast<std::uint32_t>(payload.size()), 1);
   message.insert(message.end(), payload.begin(), payload.end());
+  return message;
+}
+
+std::vector<std::uint8_t> pointerMessage(int x, int y, std::uint8_t buttons) {
+  std::vector<std::uint8_t> message{5, buttons};
+  appendTwo(message, x, y);
+  return message;
+}
+
+std::vector<std::uint8_t> keyMessage(std::uint32_t keysym, bool down) {
+  std::vector<std::uint8_t> message{4, static_cast<std::uint8_t>(down ? 1 : 0), 0, 0};
+  appendNumber(message, keysym, 4);
+  return message;
+}
+
+std::vector<std::uint8_t> clipboardMessage(std::string_view latin1) {
+  std::vector<std::uint8_t> message{6, 0, 0, 0};
+  appendNumber(message, static_cast<std::uint32_t>(latin1.size()), 4);
+  message.insert(message.end(), latin1.begin(), latin1.end());
   return message;
 }
 

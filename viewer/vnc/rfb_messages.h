@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "devices/image/size.h"
@@ -38,6 +39,11 @@ inline constexpr std::int32_t kVmwareCursorPositionEncoding = 0x574d5666;
 
 /// Client to server: the answer to a fence, with the server's own payload.
 [[nodiscard]] std::vector<std::uint8_t> fenceMessage(std::uint32_t flags, std::span<const std::uint8_t> payload);
+
+/// Client to server: input. The position is in desktop pixels, the keysym is X11's, the text Latin-1.
+[[nodiscard]] std::vector<std::uint8_t> pointerMessage(int x, int y, std::uint8_t buttons);
+[[nodiscard]] std::vector<std::uint8_t> keyMessage(std::uint32_t keysym, bool down);
+[[nodiscard]] std::vector<std::uint8_t> clipboardMessage(std::string_view latin1);
 
 /// An unsigned number of at most four bytes in network order.
 [[nodiscard]] std::uint32_t bigEndian(std::span<const std::uint8_t> bytes);

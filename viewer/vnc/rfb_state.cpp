@@ -1,5 +1,6 @@
 #include "viewer/vnc/rfb_state.h"
 
+#include <poll.h>
 #include <rfb/rfbclient.h>
 #include <sys/socket.h>
 #include <sys/time.h>
@@ -7,10 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <new>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "viewer/vnc/connector.h"
@@ -70,9 +74,31 @@ void RfbState::giveBack(std::span<const std::uint8_t> bytes) {
   client->buffered += static_cast<unsigned>(bytes.size());
 }
 
+// Not through libvncclient, which would wait for ever for a server that takes nothing.
 void RfbState::write(std::span<const std::uint8_t> message) const {
-  if (!WriteToRFBServer(client, reinterpret_cast<const char*>(message.data()), static_cast<unsigned>(message.size()))) {
-    fail();
+  while (!message.empty()) {
+    const std::size_t sent = writeOnce(message);
+    message = message.subspan(sent);
+    if (sent > 0) continue;
+    pollfd watched{client->sock, POLLOUT, 0};
+    if (::poll(&watched, 1, static_cast<int>(options.patience.count())) == 0) {
+      throw SessionError(CloseKind::kLost, where + " takes nothing more");
+    }
+  }
+}
+
+std::size_t RfbState::writeOnce(std::span<const std::uint8_t> bytes) const {
+  if (tls == nullptr) {
+    const ssize_t sent = ::send(client->sock, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent >= 0) return static_cast<std::size_t>(sent);
+    if (errno == EAGAIN || errno == EINTR) return 0;
+    throw SessionError(CloseKind::kLost,
+                       "the connection to " + where + " broke: " + std::generic_category().message(errno));
+  }
+  try {
+    return tls->write(bytes).bytes;
+  } catch (const std::runtime_error& error) {
+    throw SessionError(CloseKind::kLost, "the connection to " + where + " broke: " + error.what());
   }
 }
 

@@ -36,6 +36,7 @@ struct RfbState {
   void discard(std::uint64_t count) const;
   /// The next bytes to be read, before those that the server has sent.
   void giveBack(std::span<const std::uint8_t> bytes);
+  /// A server that takes nothing for as long as the session is patient is an error.
   void write(std::span<const std::uint8_t> message) const;
   /// Throws what the log tells.
   [[noreturn]] void fail() const;
@@ -73,6 +74,7 @@ struct RfbState {
   std::vector<SessionEvent> events;
 
  private:
+  [[nodiscard]] std::size_t writeOnce(std::span<const std::uint8_t> bytes) const;
   void adopt(Pixels fresh, devices::Size size);
 
   // As much as libvncclient reads ahead, and the head of a message before it.

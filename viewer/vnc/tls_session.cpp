@@ -20,17 +20,17 @@ void check(int result) {
 
 struct Transport {
   int socket = -1;
-  int flags = MSG_DONTWAIT;
+  int readFlags = MSG_DONTWAIT;
 };
 
 ssize_t pull(gnutls_transport_ptr_t pointer, void* bytes, std::size_t count) {
   const Transport& transport = *static_cast<Transport*>(pointer);
-  return ::recv(transport.socket, bytes, count, transport.flags);
+  return ::recv(transport.socket, bytes, count, transport.readFlags);
 }
 
 ssize_t push(gnutls_transport_ptr_t pointer, const void* bytes, std::size_t count) {
   const Transport& transport = *static_cast<Transport*>(pointer);
-  return ::send(transport.socket, bytes, count, transport.flags | MSG_NOSIGNAL);
+  return ::send(transport.socket, bytes, count, MSG_DONTWAIT | MSG_NOSIGNAL);
 }
 
 bool isAgain(ssize_t result) {
@@ -105,8 +105,8 @@ TlsSession::Transfer TlsSession::write(std::span<const std::uint8_t> bytes) {
   return transferOf(::gnutls_record_send(state_->session, bytes.data(), bytes.size()));
 }
 
-void TlsSession::letBlock() {
-  state_->transport.flags = 0;
+void TlsSession::letReadsBlock() {
+  state_->transport.readFlags = 0;
 }
 
 bool TlsSession::hasPendingBytes() const {

@@ -12,7 +12,7 @@
 namespace pixelflex::viewer {
 
 /// The client's end of TLS on a connected socket: 1.2 without certificates, or 1.2 and later with. Whose certificate it
-/// is must be checked after the handshake. libvncclient can go on with it, through handle(). One thread at a time.
+/// is must be checked after the handshake. libvncclient can read on with it, through handle(). One thread at a time.
 class TlsSession {
  public:
   enum class Kind { kAnonymous, kX509 };
@@ -32,11 +32,12 @@ class TlsSession {
     std::size_t bytes = 0;
     bool again = false;
   };
-  /// Neither blocks. Both throw std::runtime_error with GnuTLS's words.
+  /// Neither blocks; a write that says "again" must be tried again with the same bytes. Both throw std::runtime_error
+  /// with GnuTLS's words.
   Transfer read(std::span<std::uint8_t> bytes);
   Transfer write(std::span<const std::uint8_t> bytes);
-  /// From here on, reads and writes block as those of the socket do.
-  void letBlock();
+  /// From here on, reads block as those of the socket do.
+  void letReadsBlock();
 
   /// Decrypted bytes that poll() cannot see.
   [[nodiscard]] bool hasPendingBytes() const;
