@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "calib/estimate/smooth_field.h"
 #include "calib/photometric/gamut.h"
 
 namespace pixelflex::calib {
@@ -74,29 +75,6 @@ class Sampler {
   const CameraMapping& camera_;
 };
 
-/// A 3x3 binomial mean over the nodes that were seen.
-ImageF smoothed(const ImageF& field) {
-  ImageF result(field.size(), 3);
-  for (int y = 0; y < field.height(); ++y) {
-    for (int x = 0; x < field.width(); ++x) {
-      if (field.at(x, y, 1) <= 0) continue;
-      Colour sum{};
-      double total = 0;
-      for (int k = 0; k < 9; ++k) {
-        const int column = x + k % 3 - 1;
-        const int row = y + k / 3 - 1;
-        if (column < 0 || row < 0 || column >= field.width() || row >= field.height()) continue;
-        if (field.at(column, row, 1) <= 0) continue;
-        const double weight = (k % 3 == 1 ? 2 : 1) * (k / 3 == 1 ? 2 : 1);
-        for (int c = 0; c < 3; ++c) sum[static_cast<std::size_t>(c)] += weight * field.at(column, row, c);
-        total += weight;
-      }
-      for (int c = 0; c < 3; ++c) result.at(x, y, c) = static_cast<float>(sum[static_cast<std::size_t>(c)] / total);
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
 glm::dvec2 LightField::inFrame(std::size_t node) const {
@@ -147,7 +125,7 @@ ImageF withoutVignetting(const LightField& field, const CameraVignetting& vignet
     const double passed = vignetting.transmission(field.inCamera[node]);
     for (int c = 0; c < 3; ++c) corrected.at(x, y, c) = static_cast<float>(field.light.at(x, y, c) / passed);
   }
-  return smoothed(corrected);
+  return smoothField(corrected);
 }
 
 }  // namespace pixelflex::calib

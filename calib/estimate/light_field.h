@@ -29,7 +29,7 @@ struct LightField {
 [[nodiscard]] std::vector<SeenLight> samplesOf(const LightField& field, std::size_t projector,
                                                const ProjectorMapping& mapping);
 
-/// The field as a camera without vignetting would have seen it, noise averaged over neighbouring nodes.
+/// The field as a camera without vignetting would have seen it, smooth (smoothField).
 [[nodiscard]] devices::ImageF withoutVignetting(const LightField& field, const CameraVignetting& vignetting);
 
 }  // namespace pixelflex::calib

@@ -150,7 +150,12 @@ class LightMatcher {
                            calibration_.projectors[i].name + " has none");
     }
     const LuminanceTarget first = luminanceTarget(maps_, wall_.blend.uniformity.value_or(0), perDegree);
-    black_ = blackTarget(maps_, first.target, 0);
+    // The lift is added after the colours are matched: it is a part of the whole white.
+    native_ = maps_;
+    for (std::size_t i = 0; i < native_.size(); ++i) {
+      for (float& white : native_[i].white.samples()) white /= static_cast<float>(gamut_.projectors[i].kept);
+    }
+    black_ = blackTarget(native_, first.target, 0);
     for (auto& maps : maps_) {
       for (float& white : maps.white.samples()) white *= static_cast<float>(1 - black_->largestLift);
     }
@@ -164,7 +169,7 @@ class LightMatcher {
     result.images[*match.gain] = gainMap(mappings_[i], maps_[i].white, target.target, raster_, corrected_[i].size());
     if (black_) {
       match.black = "calibration/" + name + "-black.png";
-      result.images[*match.black] = blackLiftMap(i, mappings_, maps_, *black_, raster_, masks_[i]);
+      result.images[*match.black] = blackLiftMap(i, mappings_, native_, *black_, raster_, masks_[i]);
     }
     result.matches[name] = match;
   }
@@ -193,7 +198,8 @@ class LightMatcher {
   std::vector<ImageF> corrected_;  // white without the camera's vignetting
   std::vector<Matrix3> primaries_;
   CommonGamut gamut_;
-  std::vector<ProjectorLightMaps> maps_;
+  std::vector<ProjectorLightMaps> maps_;    // white as the common gamut leaves it
+  std::vector<ProjectorLightMaps> native_;  // white as it is, where black is evened
   std::optional<BlackTarget> black_;
 };
 
