@@ -24,9 +24,9 @@ pixelflex_test(intrinsics_test LABEL unit SOURCES unit/estimate_intrinsics_test.
 pixelflex_test(photometric_test LABEL unit SOURCES unit/photometric_test.cpp unit/photometric_mask_test.cpp unit/photometric_response_test.cpp unit/photometric_luminance_test.cpp unit/photometric_gamut_test.cpp unit/photometric_black_test.cpp unit/photometric_colour_test.cpp unit/photometric_view_test.cpp unit/photometric_wall.h LINK pixelflex_photometric)
 pixelflex_test(report_test LABEL unit
   SOURCES
-    unit/report_heat_test.cpp unit/report_html.h unit/report_light_test.cpp unit/report_page_test.cpp unit/report_seams_test.cpp unit/summary_verdicts_test.cpp
+    unit/report_heat_test.cpp unit/report_html.h unit/report_light_test.cpp unit/report_light_figures_test.cpp unit/report_lit_wall.h unit/report_page_test.cpp unit/report_seams_test.cpp unit/summary_verdicts_test.cpp
     support_calibration/plain_wall.cpp support_calibration/plain_wall.h
   LINK pixelflex_report pixelflex_simulate pixelflex_test_support)
 pixelflex_test(report_rig_test LABEL unit
   SOURCES unit/report_rig_test.cpp
-  LINK pixelflex_test_calibration pixelflex_test_support)
+  LINK pixelflex_report pixelflex_test_calibration pixelflex_test_support)
