@@ -27,8 +27,9 @@ target_compile_definitions(pixelflex_test_light PRIVATE PIXELFLEX_SOURCE_DIR="${
 add_executable(light_table accuracy/light_table.cpp)
 target_link_libraries(light_table PRIVATE pixelflex_options pixelflex_test_light CLI11::CLI11 fmt::fmt)
 set_target_properties(light_table PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-pixelflex_test(light_match_test LABEL gl SOURCES accuracy/light_test.cpp gl/plans.cpp
-  LINK pixelflex_test_calibration pixelflex_test_support pixelflex_plan pixelflex_renderer)
+pixelflex_test(light_match_test LABEL gl TIMEOUT 300 SOURCES accuracy/light_test.cpp LINK pixelflex_test_light)
+pixelflex_test(light_measures_test LABEL unit
+  SOURCES accuracy/light_measures_test.cpp accuracy/light_table_test.cpp LINK pixelflex_test_light)
 
 # The largest rectangle against brute force.
 pixelflex_test(display_optimum_test LABEL unit SOURCES accuracy/display_optimum_test.cpp LINK pixelflex_geometry)

@@ -91,13 +91,14 @@ class LightBench {
   }
 
   void measureSteps(Correction correction, SeenWall& wall) {
-    BorderStep inset;
     for (const auto& [figure, code] : kSteps) {
       const BorderStep step = largestStep(view_, wall.luminance(code));
-      if (!kind_.inset) addStep(figure, correction, step);
-      if (code >= 32 && step.step > inset.step) inset = step;
+      if (!kind_.inset) {
+        addStep(figure, correction, step);
+      } else if (code >= 32) {
+        add(Figure::kInset, correction, step.step, fmt::format(" grey {}{}", code, placeText(step.at)));
+      }
     }
-    if (kind_.inset) addStep(Figure::kInset, correction, inset);
   }
 
   /// What is asked for at uniformity 1.
