@@ -23,9 +23,9 @@ LightFigures figuresOfThree() {
 TEST(Light, OfUnlikeProjectorsIsThatOfOneWall) {
   const LightFigures figures = figuresOfThree();
   std::cout << figures.table();
-  for (const auto figure :
-       {Figure::kStep128, Figure::kStep200, Figure::kStep255, Figure::kUnevenness, Figure::kBlack, Figure::kGrey,
-        Figure::kPrimaries, Figure::kSlipped, Figure::kBanding16, Figure::kBanding64}) {
+  for (const auto figure : {Figure::kStep16, Figure::kStep32, Figure::kStep64, Figure::kStep128, Figure::kStep200,
+                            Figure::kStep255, Figure::kUnevenness, Figure::kBlack, Figure::kBlackStep, Figure::kGrey,
+                            Figure::kPrimaries, Figure::kSlipped, Figure::kBanding16, Figure::kBanding64}) {
     EXPECT_TRUE(figures.met(figure)) << LightFigures::told(figure, Correction::kMatched,
                                                            figures.worst(figure, Correction::kMatched));
   }
