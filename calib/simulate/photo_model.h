@@ -21,8 +21,11 @@ class PhotoModel {
 
   /// What a projector shows from now on; an empty image is black.
   void show(std::size_t projector, const devices::Image8& frame);
-  /// `pose` counts the ways to hold the checkerboard.
+  /// `pose` counts the ways to hold the checkerboard. The exposure becomes the scene's own.
   void arrange(devices::Scene scene, int pose);
+  /// Part of full scale that radiance 1 makes.
+  [[nodiscard]] double exposure() const { return exposure_; }
+  void setExposure(double exposure) { exposure_ = exposure; }
   /// `noiseSeed` decides the noise.
   [[nodiscard]] devices::Image8 shoot(std::uint64_t noiseSeed);
 

@@ -1,5 +1,6 @@
 #include "calib/simulate/simulated_wall.h"
 
+#include <algorithm>
 #include <cassert>
 #include <stdexcept>
 #include <string>
@@ -17,6 +18,9 @@ using devices::Image8;
 using devices::ImageF;
 using devices::Scene;
 using devices::Size;
+
+constexpr double kSensitivity = 30;  // part of full scale that radiance 1 makes in a second
+constexpr devices::ExposureRange kExposures{.shortest = 1e-4, .longest = 30};
 
 std::string sizeText(Size size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
@@ -62,13 +66,25 @@ class Studio {
   }
 
   [[nodiscard]] Image8 shoot() {
-    if (!model_) prepare();
+    prepare();
     ++photographs_;
     return model_->shoot((std::uint64_t{stage_.rig().seed} << 32U) + photographs_);
   }
 
+  [[nodiscard]] double exposure() {
+    prepare();
+    return model_->exposure() / kSensitivity;
+  }
+
+  double setExposure(double seconds) {
+    prepare();
+    model_->setExposure(kSensitivity * std::clamp(seconds, kExposures.shortest, kExposures.longest));
+    return exposure();
+  }
+
  private:
   void prepare() {
+    if (model_) return;
     model_ = std::make_unique<PhotoModel>(stage_, places_[static_cast<std::size_t>(place_)]);
     model_->arrange(scene_, pose_);
     for (std::size_t i = 0; i < frames_.size(); ++i) model_->show(i, frames_[i]);
@@ -84,11 +100,15 @@ class Studio {
   std::unique_ptr<PhotoModel> model_;
 };
 
-class StudioCamera final : public devices::Camera {
+class StudioCamera final : public devices::Camera, public devices::ExposureControl {
  public:
   StudioCamera(Studio& studio, Size size) : studio_(studio), size_(size) {}
   [[nodiscard]] Size size() const override { return size_; }
   [[nodiscard]] Image8 shoot() override { return studio_.shoot(); }
+  [[nodiscard]] devices::ExposureControl* exposureControl() override { return this; }
+  [[nodiscard]] devices::ExposureRange exposureRange() const override { return kExposures; }
+  [[nodiscard]] double exposure() override { return studio_.exposure(); }
+  double setExposure(double seconds) override { return studio_.setExposure(seconds); }
 
  private:
   Studio& studio_;

@@ -17,8 +17,8 @@ class Operator {
   Operator(const Operator&) = delete;
   Operator& operator=(const Operator&) = delete;
 
-  /// Returns when the scene is ready. For kCheckerboard `index` counts the poses from 0. Returns false when the person
-  /// has no more to show (enough checkerboard poses).
+  /// Returns when the scene is ready and the camera exposed for it. For kCheckerboard `index` counts the poses from 0.
+  /// Returns false when the person has no more to show (enough checkerboard poses).
   [[nodiscard]] virtual bool arrange(Scene scene, int index) = 0;
 
   /// Returns when the camera stands at its next place, counted from 0: a wall that one photograph cannot hold is

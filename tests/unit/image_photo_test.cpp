@@ -9,10 +9,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "devices/image/exposure_time.h"
 #include "devices/image/image_error.h"
 #include "devices/image/photo_file.h"
 #include "devices/image/png_file.h"
@@ -164,6 +166,73 @@ TEST_F(ImagePhoto, OtherFilesAreRefused) {
   EXPECT_THAT([&] { (void)readPhoto(path()); }, ThrowsMessage<ImageError>(HasSubstr("neither a PNG nor a JPEG")));
   write("\xff");
   EXPECT_THAT([&] { (void)readPhoto(path()); }, ThrowsMessage<ImageError>(HasSubstr("neither a PNG nor a JPEG")));
+}
+
+/// A JPEG's Exif with the exposure `above` / `below`, in either byte order.
+std::string exifOf(std::uint32_t above, std::uint32_t below, bool bigEndian) {
+  std::string tiff;
+  const auto put = [&](std::uint32_t value, int bytes) {
+    for (int i = 0; i < bytes; ++i) {
+      const int shift = 8 * (bigEndian ? bytes - 1 - i : i);
+      tiff += static_cast<char>((value >> shift) & 0xFFU);
+    }
+  };
+  tiff = bigEndian ? "MM" : "II";
+  put(42, 2), put(8, 4);
+  put(2, 2);                                                   // the first directory, at 8
+  put(0x0112, 2), put(3, 2), put(1, 4), put(1, 2), put(0, 2);  // orientation
+  put(0x8769, 2), put(4, 2), put(1, 4), put(38, 4);            // where the next one is
+  put(0, 4);
+  put(1, 2);  // Exif, at 38
+  put(0x829A, 2), put(5, 2), put(1, 4), put(56, 4);
+  put(0, 4);
+  put(above, 4), put(below, 4);  // at 56
+  const std::string body = std::string("Exif\0\0", 6) + tiff;
+  const auto length = static_cast<unsigned>(body.size() + 2);
+  return std::string("\xFF\xE1") + static_cast<char>(length >> 8U) + static_cast<char>(length & 0xFFU) + body;
+}
+
+class ExposureTimeTest : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::optional<double> timeOf(const std::string& bytes) const {
+    const auto file = folder_ / "photo.jpg";
+    std::ofstream(file, std::ios::binary) << bytes;
+    return devices::exposureTime(file);
+  }
+  const std::string jpeg_ = jpegOf(gradient({16, 16}, 3));
+  TemporaryFolder folder_;
+};
+
+TEST_F(ExposureTimeTest, IsReadFromExif) {
+  for (const bool bigEndian : {false, true}) {
+    std::string bytes = jpeg_;
+    bytes.insert(2, exifOf(1, 60, bigEndian));
+    EXPECT_NEAR(timeOf(bytes).value_or(0), 1.0 / 60, 1e-12);
+    EXPECT_EQ(readPhoto(folder_ / "photo.jpg").width(), 16);
+  }
+}
+
+TEST_F(ExposureTimeTest, IsAbsentWhereNothingIsSaid) {
+  EXPECT_FALSE(timeOf(jpeg_));
+  EXPECT_FALSE(timeOf(""));
+  EXPECT_FALSE(timeOf("\x89PNG"));
+  EXPECT_FALSE(devices::exposureTime(folder_ / "nowhere.jpg"));
+  std::string bytes = jpeg_;
+  EXPECT_FALSE(timeOf(bytes.insert(2, exifOf(0, 60, true))));
+  bytes = jpeg_;
+  EXPECT_FALSE(timeOf(bytes.insert(2, exifOf(1, 0, true))));
+}
+
+TEST_F(ExposureTimeTest, DamagedFilesDoNoHarm) {
+  std::mt19937 random(std::random_device{}());
+  const std::string whole = std::string(jpeg_).insert(2, exifOf(1, 60, false));
+  for (int i = 0; i < 500; ++i) {
+    std::string bytes = whole.substr(0, random() % 120);
+    for (int k = 0; k < 3 && bytes.size() > 2; ++k)
+      bytes[2 + random() % (bytes.size() - 2)] = static_cast<char>(random());
+    const auto time = timeOf(bytes);
+    EXPECT_TRUE(!time || *time > 0);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+namespace pixelflex::devices {
+
+/// The exposure time in seconds that a camera wrote into a JPEG (Exif ExposureTime); none in other files, or where it
+/// says nothing. Never throws, whatever the file.
+[[nodiscard]] std::optional<double> exposureTime(const std::filesystem::path& path);
+
+}  // namespace pixelflex::devices
