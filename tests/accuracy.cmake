@@ -31,6 +31,10 @@ pixelflex_test(light_match_test LABEL gl TIMEOUT 300 SOURCES accuracy/light_test
 pixelflex_test(light_measures_test LABEL unit
   SOURCES accuracy/light_measures_test.cpp accuracy/light_table_test.cpp LINK pixelflex_test_light)
 
+# Responses measured by the camera.
+pixelflex_test(response_accuracy_test LABEL unit TIMEOUT 240 SOURCES accuracy/response_test.cpp
+  LINK pixelflex_test_calibration pixelflex_test_support)
+
 # The largest rectangle against brute force.
 pixelflex_test(display_optimum_test LABEL unit SOURCES accuracy/display_optimum_test.cpp LINK pixelflex_geometry)
 

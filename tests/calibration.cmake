@@ -18,7 +18,7 @@ pixelflex_test(capture_test LABEL unit
   SOURCES unit/capture_folder_test.cpp unit/capture_live_test.cpp support/temporary_folder.cpp
   LINK pixelflex_capture)
 pixelflex_test(estimate_test LABEL unit SOURCES unit/estimate_test.cpp unit/estimate_fit_test.cpp unit/estimate_joint_test.cpp unit/estimate_vignetting_test.cpp unit/estimate_smooth_field_test.cpp LINK pixelflex_estimate pixelflex_patterns)
-pixelflex_test(estimate_light_test LABEL unit SOURCES unit/estimate_light_test.cpp unit/estimate_projector_light_test.cpp unit/test_camera.h LINK pixelflex_estimate)
+pixelflex_test(estimate_light_test LABEL unit SOURCES unit/estimate_light_test.cpp unit/estimate_projector_light_test.cpp unit/test_camera.h LINK pixelflex_estimate pixelflex_patterns)
 pixelflex_test(fiducials_test LABEL unit SOURCES unit/estimate_fiducials_test.cpp unit/estimate_fiducial_check_test.cpp LINK pixelflex_estimate pixelflex_simulate)
 pixelflex_test(intrinsics_test LABEL unit SOURCES unit/estimate_intrinsics_test.cpp LINK pixelflex_estimate)
 pixelflex_test(photometric_test LABEL unit SOURCES unit/photometric_test.cpp unit/photometric_mask_test.cpp unit/photometric_response_test.cpp unit/photometric_luminance_test.cpp unit/photometric_gamut_test.cpp unit/photometric_black_test.cpp unit/photometric_colour_test.cpp unit/photometric_view_test.cpp unit/photometric_wall.h LINK pixelflex_photometric)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calib/capture/photo_files.h"
+#include "calib/patterns/response_pattern.h"
 
 namespace pixelflex::calib {
 namespace fs = std::filesystem;
@@ -57,15 +58,16 @@ fs::path CaptureFolder::gathered(int place, const fs::path& relative) {
   return file;
 }
 
-void CaptureFolder::commit() {
+void CaptureFolder::commit(Kept what) {
   if (!begun_) return;
   std::set<fs::path> kept;
   for (const auto& entry : fs::recursive_directory_iterator(gathering_)) {
-    if (entry.is_regular_file()) kept.insert(entry.path().lexically_relative(gathering_));
+    const bool wanted = what == Kept::kAll || isOfResponse(entry.path().stem());
+    if (entry.is_regular_file() && wanted) kept.insert(entry.path().lexically_relative(gathering_));
   }
   for (const auto& file : kept) moveFile(file);
   dropStale(kept);
-  if (!std::ranges::all_of(kept, isCommon)) dropOtherPlaces();
+  if (what == Kept::kAll && !std::ranges::all_of(kept, isCommon)) dropOtherPlaces();
   fs::remove_all(gathering_);
   begun_ = false;
 }
@@ -75,24 +77,27 @@ void CaptureFolder::moveFile(const fs::path& relative) const {
   fs::rename(gathering_ / relative, captures_ / relative);
 }
 
-/// Photographs beside the new ones, of another method or with another ending.
+/// Photographs beside the new ones, of another method, another exposure or with another ending.
 void CaptureFolder::dropStale(const std::set<fs::path>& kept) const {
-  std::set<fs::path> folders;
+  std::set<std::pair<fs::path, bool>> folders;  // and whether it is the response's photographs in it
   for (const auto& file : kept) {
     const fs::path folder = captures_ / file.parent_path();
     const bool ofPlace = file.stem() == "fiducials";  // its folder holds the projectors' folders
-    if (!ofPlace && file != kCamera) folders.insert(folder);
+    if (!ofPlace && file != kCamera) folders.insert({folder, isOfResponse(file.stem())});
     for (const auto& other : entriesOf(folder)) {
       const bool stale = other.stem() == file.stem() && !kept.contains(other.lexically_relative(captures_));
       if (ofPlace && stale && fs::is_regular_file(other)) fs::remove(other);
     }
   }
-  for (const auto& folder : folders) {
+  for (const auto& [folder, ofResponse] : folders) {
     for (const auto& other : entriesOf(folder)) {
-      if (fs::is_regular_file(other) && !kept.contains(other.lexically_relative(captures_))) fs::remove(other);
+      const bool stale =
+          isOfResponse(other.stem()) == ofResponse && !kept.contains(other.lexically_relative(captures_));
+      if (stale && fs::is_regular_file(other)) fs::remove(other);
     }
   }
-  if (folders.contains(captures_ / kCheckerboard) && !kept.contains(kCamera)) fs::remove(captures_ / kCamera);
+  const bool newBoards = folders.contains({captures_ / kCheckerboard, false});
+  if (newBoards && !kept.contains(kCamera)) fs::remove(captures_ / kCamera);
 }
 
 void CaptureFolder::dropOtherPlaces() const {

@@ -4,6 +4,8 @@
 #include <set>
 #include <string>
 
+#include "calib/capture/photographs.h"
+
 namespace pixelflex::calib {
 
 /// The wall's captures/: the photographs that the calibration in force was made from. New ones are gathered in a folder
@@ -21,9 +23,10 @@ class CaptureFolder {
   [[nodiscard]] std::filesystem::path gathered(int place, const std::filesystem::path& relative);
   [[nodiscard]] std::filesystem::path gathering() const { return gathering_; }
 
-  /// Moves what was gathered into captures/. There, each folder that receives photographs keeps no others, and places
-  /// that the camera no longer stands at are dropped: an offline solve must not mix two sessions.
-  void commit();
+  /// Moves what was gathered into captures/, all or what belongs to the response. There, each folder that receives
+  /// photographs keeps no others of their kind (the response's, or those of geometry), and places that the camera no
+  /// longer stands at are dropped: an offline solve must not mix two sessions.
+  void commit(Kept what = Kept::kAll);
 
  private:
   [[nodiscard]] std::filesystem::path inPlace(int place, const std::filesystem::path& relative) const;

@@ -6,8 +6,11 @@
 #include <utility>
 
 #include "calib/capture/capture_folder.h"
+#include "calib/capture/exposure_name.h"
 #include "calib/capture/photo_files.h"
+#include "calib/patterns/response_pattern.h"
 #include "calib/store/yaml_reader.h"
+#include "devices/image/exposure_time.h"
 #include "devices/image/image_error.h"
 #include "devices/image/photo_file.h"
 
@@ -38,6 +41,13 @@ CameraIntrinsics readIntrinsics(const fs::path& file) {
 bool liesIn(const fs::path& file, const fs::path& folder) {
   const fs::path relative = fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(folder));
   return !relative.empty() && *relative.begin() != "..";
+}
+
+/// By their names, whatever their exposures.
+std::vector<fs::path> photosOfPattern(const fs::path& folder, const std::string& pattern) {
+  auto files = photosIn(folder);
+  std::erase_if(files, [&](const fs::path& file) { return patternOfName(file.stem()) != pattern; });
+  return files;
 }
 
 }  // namespace
@@ -133,6 +143,26 @@ devices::Image8 FolderPhotographs::pattern(const std::string& projector, const P
   return read(file, projector / file.filename());
 }
 
+std::vector<Photographs::Exposed> FolderPhotographs::exposures(const std::string& projector,
+                                                               const std::string& pattern) {
+  std::vector<Exposed> photos;
+  for (const auto& file : photosOfPattern(here() / projector, pattern)) {
+    const auto told = exposureOfName(file.stem());
+    const auto seconds = told ? told : devices::exposureTime(file);
+    if (!seconds && file.stem() != pattern) {
+      throw CaptureError(file.string() +
+                         ": after the @ there must be the exposure in seconds: 0.5, or 1_60 for a sixtieth");
+    }
+    photos.push_back({file.string(), seconds, read(file, projector / file.filename())});
+  }
+  if (photos.empty()) (void)find(fs::path(projector) / pattern);  // says what is missing
+  return photos;
+}
+
+bool FolderPhotographs::hasExposures(const std::string& projector, const std::string& pattern) {
+  return !photosOfPattern(here() / projector, pattern).empty();
+}
+
 std::string FolderPhotographs::stamp(const std::string& kind) const {
   std::string stamp;
   if (kind == "checkerboard") {
@@ -146,14 +176,17 @@ std::string FolderPhotographs::stamp(const std::string& kind) const {
       continue;
     }
     for (const auto& projector : projectorFolders(place)) {
-      for (const auto& file : photosIn(projector)) stamp += projector.filename().string() + "/" + stampOf(file);
+      for (const auto& file : photosIn(projector)) {
+        if (isOfResponse(file.stem()) != (kind == "response")) continue;
+        stamp += projector.filename().string() + "/" + stampOf(file);
+      }
     }
     stamp += "\n";
   }
   return stamp;
 }
 
-void FolderPhotographs::keep() {
+void FolderPhotographs::keep(Kept what) {
   if (fromCaptures()) return;
   CaptureFolder captures(captures_, placeCount());
   for (const auto& [file, place, relative] : used_) {
@@ -161,7 +194,7 @@ void FolderPhotographs::keep() {
     fs::copy_file(file, copy, fs::copy_options::overwrite_existing);
     fs::last_write_time(copy, fs::last_write_time(file));  // the same photograph, so that nothing is stale
   }
-  captures.commit();
+  captures.commit(what);
 }
 
 bool FolderPhotographs::fromCaptures() const {

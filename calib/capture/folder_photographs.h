@@ -30,8 +30,10 @@ class FolderPhotographs : public Photographs {
   [[nodiscard]] bool hasProjector(const std::string& projector) override;
   [[nodiscard]] bool hasPattern(const std::string& projector, const ProjectedPattern& pattern) override;
   [[nodiscard]] devices::Image8 pattern(const std::string& projector, const ProjectedPattern& pattern) override;
+  [[nodiscard]] std::vector<Exposed> exposures(const std::string& projector, const std::string& pattern) override;
+  [[nodiscard]] bool hasExposures(const std::string& projector, const std::string& pattern) override;
   [[nodiscard]] std::string stamp(const std::string& kind) const override;
-  void keep() override;
+  void keep(Kept what) override;
 
  private:
   /// A photograph that was read, and its path in captures/ relative to its place.

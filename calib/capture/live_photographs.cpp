@@ -1,13 +1,32 @@
 #include "calib/capture/live_photographs.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cstddef>
 #include <exception>
 
+#include "calib/capture/exposure_name.h"
 #include "devices/image/image_error.h"
 #include "devices/image/photo_file.h"
 #include "devices/image/png_file.h"
 
 namespace pixelflex::calib {
+namespace {
+
+/// Black elsewhere: as large as the photograph, but a small file.
+devices::Image8 onlyRegion(const devices::Image8& photo, const PictureRegion& region) {
+  devices::Image8 part(photo.size(), photo.channels());
+  const auto channels = static_cast<std::size_t>(photo.channels());
+  const auto first = channels * static_cast<std::size_t>(std::clamp(region.left, 0, photo.width()));
+  const auto last = channels * static_cast<std::size_t>(std::clamp(region.right, 0, photo.width()));
+  for (int y = std::max(0, region.top); y < std::min(photo.height(), region.bottom) && first < last; ++y) {
+    std::ranges::copy(photo.row(y).subspan(first, last - first),
+                      part.row(y).begin() + static_cast<std::ptrdiff_t>(first));
+  }
+  return part;
+}
+
+}  // namespace
 
 PhotoWriter::PhotoWriter() : thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
@@ -95,18 +114,64 @@ Photographs::Named LivePhotographs::fiducials() {
 }
 
 devices::Image8 LivePhotographs::pattern(const std::string& projector, const ProjectedPattern& pattern) {
-  devices::Projector* target = find(projector);
-  if (target == nullptr) throw CaptureError("projector " + projector + " is not connected");
   const std::filesystem::path relative = patternPath(projector, pattern).string() + ".png";
   if (const auto taken = taken_.find({place_, relative}); taken != taken_.end()) return readAgain(taken->second);
-  if (!dark_ && !person_.arrange(devices::Scene::kDark, 0)) throw CaptureError("the room could not be darkened");
-  dark_ = true;
-  if (lit_ != target) blankAll();
-  lit_ = target;
-  target->show(pattern.render());
+  showInTheDark(projector, pattern);
+  expose(std::nullopt);
   Named shot = shoot(relative);
   if (captures_) taken_[{place_, relative}] = shot.name;
   return std::move(shot.photo);
+}
+
+void LivePhotographs::showInTheDark(const std::string& projector, const ProjectedPattern& pattern) {
+  devices::Projector* target = find(projector);
+  if (target == nullptr) throw CaptureError("projector " + projector + " is not connected");
+  darken();
+  if (lit_ == target && shown_ == pattern.name) return;
+  if (lit_ != target) blankAll();
+  target->show(pattern.render());
+  lit_ = target;
+  shown_ = pattern.name;
+}
+
+void LivePhotographs::darken() {
+  if (dark_) return;
+  if (!person_.arrange(devices::Scene::kDark, 0)) throw CaptureError("the room could not be darkened");
+  dark_ = true;
+}
+
+std::optional<devices::ExposureRange> LivePhotographs::exposureRange() {
+  const auto* control = camera_.exposureControl();
+  return control != nullptr ? std::optional(control->exposureRange()) : std::nullopt;
+}
+
+double LivePhotographs::usualExposure() {
+  assert(camera_.exposureControl() != nullptr);
+  darken();
+  return usual_ ? *usual_ : camera_.exposureControl()->exposure();
+}
+
+/// None asks for the usual one of the scene.
+void LivePhotographs::expose(std::optional<double> seconds) {
+  if (!seconds && !usual_) return;
+  auto& control = *camera_.exposureControl();
+  if (!usual_) usual_ = control.exposure();
+  control.setExposure(seconds.value_or(*usual_));
+  if (!seconds) usual_.reset();
+}
+
+Photographs::Exposed LivePhotographs::exposed(const std::string& projector, const ProjectedPattern& pattern,
+                                              double seconds, const PictureRegion& region) {
+  assert(camera_.exposureControl() != nullptr);
+  showInTheDark(projector, pattern);
+  expose(seconds);
+  const double actual = camera_.exposureControl()->exposure();
+  devices::Image8 photo = camera_.shoot();
+  const std::string name = nameWithExposure(patternPath(projector, pattern).string(), actual) + ".png";
+  if (!captures_) return {name, actual, std::move(photo)};
+  const std::filesystem::path file = captures_->gathered(place_, name);
+  writer_.write(file, onlyRegion(photo, region));
+  return {file.string(), actual, std::move(photo)};
 }
 
 devices::Image8 LivePhotographs::readAgain(const std::filesystem::path& file) {
@@ -122,9 +187,9 @@ std::string LivePhotographs::stamp(const std::string& kind) const {
   return placeCount_ > 1 && kind != "checkerboard" ? identity_ + "\nplaces " + std::to_string(placeCount_) : identity_;
 }
 
-void LivePhotographs::keep() {
+void LivePhotographs::keep(Kept what) {
   writer_.finish();
-  if (captures_) captures_->commit();
+  if (captures_) captures_->commit(what);
 }
 
 devices::Projector* LivePhotographs::find(const std::string& name) const {
@@ -135,6 +200,7 @@ devices::Projector* LivePhotographs::find(const std::string& name) const {
 }
 
 void LivePhotographs::blankAll() {
+  expose(std::nullopt);
   lit_ = nullptr;
   for (devices::Projector* projector : projectors_) projector->blank();
 }

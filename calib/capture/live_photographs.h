@@ -63,12 +63,19 @@ class LivePhotographs : public Photographs {
   [[nodiscard]] Named fiducials() override;
   [[nodiscard]] bool hasProjector(const std::string& projector) override { return find(projector) != nullptr; }
   [[nodiscard]] devices::Image8 pattern(const std::string& projector, const ProjectedPattern& pattern) override;
+  [[nodiscard]] std::optional<devices::ExposureRange> exposureRange() override;
+  [[nodiscard]] double usualExposure() override;
+  [[nodiscard]] Exposed exposed(const std::string& projector, const ProjectedPattern& pattern, double seconds,
+                                const PictureRegion& region) override;
   [[nodiscard]] std::string stamp(const std::string& kind) const override;
-  void keep() override;
+  void keep(Kept what) override;
 
  private:
   [[nodiscard]] devices::Projector* find(const std::string& name) const;
   void blankAll();
+  void showInTheDark(const std::string& projector, const ProjectedPattern& pattern);
+  void darken();
+  void expose(std::optional<double> seconds);
   [[nodiscard]] Named shoot(const std::filesystem::path& relative);
   [[nodiscard]] devices::Image8 readAgain(const std::filesystem::path& file);
 
@@ -85,6 +92,8 @@ class LivePhotographs : public Photographs {
   int nextCheckerboard_ = 0;
   bool dark_ = false;
   devices::Projector* lit_ = nullptr;
+  std::string shown_;            // the pattern on it
+  std::optional<double> usual_;  // exposure in seconds, while another one is set
   PhotoWriter writer_;
 };
 

@@ -10,6 +10,7 @@
 #include "calib/patterns/method.h"
 #include "calib/patterns/projected_pattern.h"
 #include "calib/store/calibration.h"
+#include "devices/camera/camera.h"
 #include "devices/image/image.h"
 
 namespace pixelflex::calib {
@@ -19,6 +20,14 @@ class CaptureError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// A part of a picture, pixels, half-open.
+struct PictureRegion {
+  int left = 0, top = 0, right = 0, bottom = 0;
+};
+
+/// Which of the photographs used are kept: all, or those of the response, beside what is kept of the others.
+enum class Kept { kAll, kResponse };
 
 /// The photographs that a calibration works from, asked for one by one. Thread-bound.
 class Photographs {
@@ -67,11 +76,34 @@ class Photographs {
   /// One pattern on this projector, every other one black.
   [[nodiscard]] virtual devices::Image8 pattern(const std::string& projector, const ProjectedPattern& pattern) = 0;
 
-  /// A short text that changes when the photographs of a kind would: "checkerboard", "fiducials" or "patterns".
+  /// Exposures, for the response: either they can be asked for (a range, and exposed()), or photographs are as they
+  /// were taken (no range, and exposures()).
+  [[nodiscard]] virtual std::optional<devices::ExposureRange> exposureRange() { return std::nullopt; }
+  /// Seconds, of photographs for which none is asked for, in the dark; only with a range.
+  [[nodiscard]] virtual double usualExposure() { return 1; }
+
+  struct Exposed {
+    std::string name;               // for messages
+    std::optional<double> seconds;  // where it is told
+    devices::Image8 photo;
+  };
+  /// One pattern on this projector at an exposure of about `seconds`. Only `region` of the picture is kept for solving
+  /// again.
+  [[nodiscard]] virtual Exposed exposed(const std::string& projector, const ProjectedPattern& pattern, double seconds,
+                                        const PictureRegion& region);
+  /// Every photograph of a pattern by its name, one or more.
+  [[nodiscard]] virtual std::vector<Exposed> exposures(const std::string& projector, const std::string& pattern);
+  /// Whether that would find any, seen from here.
+  [[nodiscard]] virtual bool hasExposures(const std::string& /*projector*/, const std::string& /*pattern*/) {
+    return false;
+  }
+
+  /// A short text that changes when the photographs of a kind would: "checkerboard", "fiducials", "patterns" or
+  /// "response".
   [[nodiscard]] virtual std::string stamp(const std::string& kind) const = 0;
 
-  /// Called once after success: keeps every photograph used under the wall's captures/.
-  virtual void keep() = 0;
+  /// Called once after success: keeps the photographs used under the wall's captures/.
+  virtual void keep(Kept what) = 0;
 };
 
 /// Relative path of a pattern's photograph without its ending: "p1/bit3".

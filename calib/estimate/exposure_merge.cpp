@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 namespace pixelflex::calib {
@@ -54,6 +55,33 @@ double lightOutOfRange(const std::vector<const ExposedPhoto*>& photos, std::size
   return light.at(best->photo.samples()[i]) / best->exposure;
 }
 
+/// What rounding to whole codes may do to the mean over a patch: the less the finer its spread in codes, which lets
+/// rounding go either way. Of the longest exposure, which tells most.
+double roundingDeviation(const ExposedPhoto& photo, std::size_t channel, const std::array<double, 256>& light) {
+  double mean = 0;
+  double square = 0;
+  const auto pixels = static_cast<double>(photo.photo.size().area());
+  for (std::size_t i = channel; i < photo.photo.samples().size(); i += 3) {
+    const double code = photo.photo.samples()[i];
+    mean += code / pixels;
+    square += code * code / pixels;
+  }
+  const double variance = std::max(0.0, square - mean * mean);
+  const auto below = static_cast<std::size_t>(std::clamp(mean, 0.0, 254.0));
+  const double lightOfCode = (light.at(below + 1) - light.at(below)) / photo.exposure;
+  return 0.29 * std::exp(-2 * std::numbers::pi * std::numbers::pi * variance) * lightOfCode;
+}
+
+/// The longest exposure that is not too bright on the whole.
+const ExposedPhoto& tellingMost(const std::vector<const ExposedPhoto*>& order) {
+  const ExposedPhoto* best = order.front();
+  for (const auto* one : order) {
+    const auto bright = std::ranges::count_if(one->photo.samples(), [](auto code) { return code > kBrightestCode; });
+    if (10 * static_cast<std::size_t>(bright) < one->photo.samples().size()) best = one;
+  }
+  return *best;
+}
+
 }  // namespace
 
 devices::ImageF mergeExposures(std::span<const ExposedPhoto> photos, const CameraResponse& camera) {
@@ -78,7 +106,8 @@ devices::ImageF mergeExposures(std::span<const ExposedPhoto> photos, const Camer
 
 PatchLight patchLight(std::span<const ExposedPhoto> photos, const CameraResponse& camera) {
   const devices::ImageF merged = mergeExposures(photos, camera);
-  const devices::Image8& shortest = ordered(photos).front()->photo;
+  const auto order = ordered(photos);
+  const devices::Image8& shortest = order.front()->photo;
   const auto pixels = static_cast<double>(merged.size().area());
   PatchLight patch;
   std::array<double, 3> squares{};
@@ -90,7 +119,8 @@ PatchLight patchLight(std::span<const ExposedPhoto> photos, const CameraResponse
   }
   for (std::size_t c = 0; c < 3; ++c) {
     const double variance = std::max(0.0, squares.at(c) - patch.light.at(c) * patch.light.at(c));
-    patch.deviation.at(c) = std::sqrt(variance / pixels);
+    patch.deviation.at(c) =
+        std::hypot(std::sqrt(variance / pixels), roundingDeviation(tellingMost(order), c, camera.light.at(c)));
   }
   return patch;
 }

@@ -21,7 +21,7 @@ inline constexpr int kBrightestCode = 235;
 /// Light of an evenly lit patch.
 struct PatchLight {
   std::array<double, 3> light{};      // mean over the patch, per channel of the camera
-  std::array<double, 3> deviation{};  // of that mean, from the spread over the patch
+  std::array<double, 3> deviation{};  // of that mean, from the spread over the patch and from whole codes
   double clipped = 0;                 // part of the patch that is too bright for the shortest exposure
 };
 

@@ -22,19 +22,22 @@ constexpr std::uint8_t kSaturated = 250;
 using Colour = std::array<double, 3>;
 
 /// White minus black around a point of the photographs, bilinear; false when saturated or outside.
-bool addDifference(const Image8& black, const Image8& white, glm::dvec2 raw, Colour& sum) {
+bool addDifference(const Image8& black, const Image8& white, const CameraResponse& response, glm::dvec2 raw,
+                   Colour& sum) {
   const glm::dvec2 p = raw - 0.5;
   const int x = static_cast<int>(std::floor(p.x));
   const int y = static_cast<int>(std::floor(p.y));
   if (x < 0 || y < 0 || x + 1 >= white.width() || y + 1 >= white.height()) return false;
   const glm::dvec2 f = p - glm::dvec2(x, y);
   for (int c = 0; c < 3; ++c) {
+    const auto& light = response.light[static_cast<std::size_t>(c)];
     for (int k = 0; k < 4; ++k) {
       const int column = x + k % 2;
       const int row = y + k / 2;
       if (white.at(column, row, c) >= kSaturated) return false;
       const double weight = (k % 2 == 1 ? f.x : 1 - f.x) * (k / 2 == 1 ? f.y : 1 - f.y);
-      sum[static_cast<std::size_t>(c)] += weight * (white.at(column, row, c) - black.at(column, row, c));
+      const double difference = light.at(white.at(column, row, c)) - light.at(black.at(column, row, c));
+      sum[static_cast<std::size_t>(c)] += 255 * weight * difference;
     }
   }
   return true;
@@ -43,8 +46,8 @@ bool addDifference(const Image8& black, const Image8& white, glm::dvec2 raw, Col
 class Sampler {
  public:
   Sampler(const Image8& black, const Image8& white, const ProjectorMapping& projector, const ScreenView& screen,
-          const CameraMapping& camera)
-      : black_(black), white_(white), projector_(projector), screen_(screen), camera_(camera) {}
+          const CameraMapping& camera, const CameraResponse& response)
+      : black_(black), white_(white), projector_(projector), screen_(screen), camera_(camera), response_(response) {}
 
   [[nodiscard]] std::optional<glm::dvec2> rawFromProjector(glm::dvec2 p) const {
     const auto inWall = projector_.wallFromProjector(p);
@@ -61,7 +64,7 @@ class Sampler {
       const glm::dvec2 part(k % kPerCell + 0.5, static_cast<int>(k / kPerCell) + 0.5);
       const glm::dvec2 p = glm::clamp(corner + extent * part / double(kPerCell), glm::dvec2(kClearOfEdge), far);
       const auto raw = rawFromProjector(p);
-      if (raw && addDifference(black_, white_, *raw, sum)) ++seen;
+      if (raw && addDifference(black_, white_, response_, *raw, sum)) ++seen;
     }
     for (double& channel : sum) channel = seen < kPerCell ? 0 : std::max(0.0, channel / seen);
     return sum;
@@ -73,6 +76,7 @@ class Sampler {
   const ProjectorMapping& projector_;
   const ScreenView& screen_;
   const CameraMapping& camera_;
+  const CameraResponse& response_;
 };
 
 }  // namespace
@@ -84,9 +88,10 @@ glm::dvec2 LightField::inFrame(std::size_t node) const {
 }
 
 LightField measureLight(const Image8& black, const Image8& white, const ProjectorMapping& projector,
-                        const ScreenView& screen, const CameraMapping& camera, devices::Size lattice) {
+                        const ScreenView& screen, const CameraMapping& camera, devices::Size lattice,
+                        const CameraResponse& response) {
   LightField field{ImageF(lattice, 3), {}};
-  const Sampler sampler(black, white, projector, screen, camera);
+  const Sampler sampler(black, white, projector, screen, camera, response);
   const glm::dvec2 extent(double(projector.resolution().width) / lattice.width,
                           double(projector.resolution().height) / lattice.height);
   for (int y = 0; y < lattice.height; ++y) {

@@ -7,13 +7,11 @@
 #include <string>
 #include <string_view>
 
-#include "calib/estimate/intrinsics.h"
 #include "calib/photometric/monotone.h"
 
 namespace pixelflex::calib {
 namespace {
 
-constexpr int kLevels = 33;
 constexpr std::size_t kFewestLevels = 5;
 constexpr double kMostClipped = 0.01;  // of the patch
 constexpr double kFloor = 0.01;        // of white: errors are relative to light, but not below
@@ -39,8 +37,8 @@ void checkLevels(const std::vector<LevelLight>& levels, std::size_t channel) {
   }
   for (const auto& level : levels) {
     if (level.patch.clipped > kMostClipped) {
-      throw EstimateError("the photographs of " + placeOf(channel, level.code) +
-                          " are over-exposed: add shorter exposures");
+      throw LevelError(static_cast<int>(channel), level.code,
+                       placeOf(channel, level.code) + " is over-exposed: add shorter exposures");
     }
   }
 }
@@ -64,8 +62,9 @@ Measured measure(const ResponseSeries& series, std::size_t channel) {
   const auto trust = trustOf(levels, series.black);
   const double sum = trust[0] + trust[1] + trust[2];
   if (!(sum > 100)) {
-    throw EstimateError("full " + std::string(kChannels.at(channel)) +
-                        " is no brighter than black in the photographs: check that the projector shows the patterns");
+    throw LevelError(static_cast<int>(channel), 255,
+                     "full " + std::string(kChannels.at(channel)) +
+                         " is no brighter than black: check that the projector shows the patterns");
   }
   Measured measured{.code = {0}, .light = {0}, .deviation = {0}};
   for (const auto& level : levels) {
@@ -85,17 +84,28 @@ Measured measure(const ResponseSeries& series, std::size_t channel) {
   return measured;
 }
 
-/// Levels what falls by noise; refuses what falls by more.
+/// Refuses light that falls by more than noise does, where it falls most.
+void checkFalls(const Measured& measured, const std::vector<double>& levelled, std::size_t channel) {
+  double most = 1;
+  std::size_t worst = 0;
+  for (std::size_t i = 1; i < levelled.size(); ++i) {
+    const double allowed = 0.005 + 0.05 * std::abs(levelled[i]) + 4 * measured.deviation[i];
+    const double fall = std::abs(measured.light[i] - levelled[i]) / allowed;
+    if (fall > most) worst = i;
+    most = std::max(most, fall);
+  }
+  if (worst == 0) return;
+  const int code = static_cast<int>(measured.code[worst]);
+  throw LevelError(static_cast<int>(channel), code,
+                   "light falls where codes rise, near " + placeOf(channel, code) +
+                       ": photographs are mixed up, or the light changed between them");
+}
+
+/// Levels what falls by noise.
 void level(Measured& measured, std::size_t channel) {
   std::vector<double> levelled = measured.light;
   levelFalls(levelled);
-  for (std::size_t i = 0; i < levelled.size(); ++i) {
-    const double allowed = 0.005 + 0.05 * std::abs(levelled[i]) + 4 * measured.deviation[i];
-    if (std::abs(measured.light[i] - levelled[i]) > allowed) {
-      throw EstimateError("light falls where codes rise, near " + placeOf(channel, static_cast<int>(measured.code[i])) +
-                          ": photographs are mixed up, or the light changed between them");
-    }
-  }
+  checkFalls(measured, levelled, channel);
   const double black = std::max(0.0, levelled.front());
   const double range = levelled.back() - black;
   for (std::size_t i = 0; i < levelled.size(); ++i) {
@@ -155,12 +165,6 @@ double leakOf(const ResponseSeries& series, const PatchLight& ambient) {
 }
 
 }  // namespace
-
-std::vector<int> responseLevels() {
-  std::vector<int> codes;
-  for (int i = 0; i < kLevels; ++i) codes.push_back(static_cast<int>(std::lround(255.0 * i / (kLevels - 1))));
-  return codes;
-}
 
 ProjectorResponse projectorResponse(const ResponseSeries& series) {
   std::array<double, 256> codes{};

@@ -2,15 +2,14 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "calib/estimate/exposure_merge.h"
+#include "calib/estimate/intrinsics.h"
 #include "calib/photometric/response_curve.h"
 
 namespace pixelflex::calib {
-
-/// The codes to show, from 0 to 255: 33, enough for 0.5 % between them.
-[[nodiscard]] std::vector<int> responseLevels();
 
 /// A patch of the frame as the camera saw it while one channel showed `code` and the others 0.
 struct LevelLight {
@@ -25,6 +24,19 @@ struct ResponseSeries {
   std::optional<PatchLight> ambient;              // it is dark, all else is as before
 };
 
+/// What is wrong with the photographs of one level.
+class LevelError : public EstimateError {
+ public:
+  LevelError(int channel, int code, const std::string& problem)
+      : EstimateError(problem), channel_(channel), code_(code) {}
+  [[nodiscard]] int channel() const { return channel_; }
+  [[nodiscard]] int code() const { return code_; }
+
+ private:
+  int channel_;
+  int code_;
+};
+
 struct ProjectorResponse {
   ResponseCurve curve;
   /// Expected error relative to light with a floor of 1 % of white, RMS over codes 20 to 235, of noise and of the gaps
@@ -34,8 +46,8 @@ struct ProjectorResponse {
 };
 
 /// Black and with it ambient light are subtracted, the camera's channels combined by how much they see of the
-/// projector's, falls levelled, and the rest interpolated without overshoot. Throws EstimateError naming channel and
-/// code: white no brighter than black, clipped photographs, light that falls by more than noise does, missing levels.
+/// projector's, falls levelled, and the rest interpolated without overshoot. Throws LevelError: white no brighter than
+/// black, clipped photographs, light that falls by more than noise does; EstimateError: missing levels.
 [[nodiscard]] ProjectorResponse projectorResponse(const ResponseSeries& series);
 
 }  // namespace pixelflex::calib

@@ -206,9 +206,9 @@ class LightMatcher {
 }  // namespace
 
 LightResult matchLight(const Wall& wall, const Calibration& calibration, Method method,
-                       const std::vector<Image16>& masks, const std::vector<double>& leak, Photographs& source,
-                       Progress& progress) {
-  const auto photographed = photographLight(calibration, method, kNodesAcross, source, progress);
+                       const std::vector<Image16>& masks, const std::vector<double>& leak, const CameraResponse& camera,
+                       Photographs& source, Progress& progress) {
+  const auto photographed = photographLight(calibration, camera, method, kNodesAcross, source, progress);
   try {
     return LightMatcher(wall, calibration, masks, photographed).match(leak);
   } catch (const LightError& error) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calib/capture/photographs.h"
+#include "calib/estimate/camera_response.h"
 #include "calib/patterns/method.h"
 #include "calib/procedure/progress.h"
 #include "calib/store/calibration.h"
@@ -25,10 +26,10 @@ struct LightResult {
 
 /// Makes the projectors' white alike in brightness and colour, from the photographs of black and white of each, and
 /// black even if that is asked for. `masks`: the alpha mask of each calibrated projector, in their order. `leak`: the
-/// part of white that each leaks, from its readings; negative where there are none. Camera codes count as linear.
+/// part of white that each leaks, from its readings; negative where there are none. `camera`: what its codes stand for.
 /// Throws ProcedureError, CaptureError.
 [[nodiscard]] LightResult matchLight(const Wall& wall, const Calibration& calibration, Method method,
                                      const std::vector<devices::Image16>& masks, const std::vector<double>& leak,
-                                     Photographs& source, Progress& progress);
+                                     const CameraResponse& camera, Photographs& source, Progress& progress);
 
 }  // namespace pixelflex::calib

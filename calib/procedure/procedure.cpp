@@ -163,8 +163,11 @@ std::string Procedure::fingerprint(const std::string& step) const {
       previous("blend");
     }
     for (const auto& p : wall_.projectors) {
-      print.add(p.gamma ? readStoreFile((folder_ / *p.gamma).string()) : "none");
+      print.add(p.gamma ? readStoreFile((folder_ / *p.gamma).string()) : p.gammaByCamera ? "camera" : "none");
     }
+    const bool byCamera = std::ranges::any_of(wall_.projectors, &ProjectorConfig::gammaByCamera);
+    if (byCamera) print.add(measureStamp("response"));
+    if (wall_.camera.transfer) print.add(static_cast<int>(*wall_.camera.transfer));
   }
   return print.text();
 }
@@ -210,7 +213,9 @@ void Procedure::requireEarlier(const std::string& step) const {
 std::string Procedure::runCamera() {
   auto& source = photographs("camera");
   tookPhotographs_ = true;
+  const auto response = calibration_.camera ? calibration_.camera->response : std::nullopt;
   calibration_.camera = measureCamera(wall_.camera, source, progress_);
+  calibration_.camera->response = response;
   const CameraIntrinsics& camera = knownCamera();
   if (camera.photos == 0) return "known intrinsics, " + sizeText(camera.size);
   return count(static_cast<std::size_t>(camera.photos), "photograph") + ", reprojection " + rounded(camera.rmsPx, 3) +
@@ -340,14 +345,28 @@ std::string Procedure::runBlend() {
 
 std::string Procedure::runGamma() {
   std::size_t measured = 0;
+  const auto byCamera = responsesByCamera();
   for (auto& projector : calibration_.projectors) {
+    if (keepsResponse(projector.name)) {
+      measured += projector.response ? 1 : 0;
+      continue;
+    }
     projector.response.reset();
+    projector.responseError.reset();
+    projector.leak.reset();
     if (options_.only.empty()) {
       projector.light.reset();
       projector.measured.reset();
     }
     const auto config = std::ranges::find(wall_.projectors, projector.name, &ProjectorConfig::name);
     if (config == wall_.projectors.end()) continue;
+    if (const auto found = byCamera.find(projector.name); found != byCamera.end()) {
+      projector.response = "calibration/" + projector.name + "-response.csv";
+      projector.responseError = found->second.error;
+      projector.leak = found->second.leak;
+      responses_[*projector.response] = formatReadings(found->second.curve);
+      ++measured;
+    }
     const auto& gamma = config->gamma;
     if (!gamma) continue;
     const std::string file = (folder_ / *gamma).string();
@@ -356,9 +375,43 @@ std::string Procedure::runGamma() {
     ++measured;
   }
   const std::size_t assumed = calibration_.projectors.size() - measured;
+  const std::string error = byCamera.empty() ? "" : ", by camera to " + rounded(100 * typicalError(byCamera), 1) + " %";
   const std::string responses =
-      count(measured, "response") + (assumed > 0 ? ", sRGB assumed for " + std::to_string(assumed) : "");
+      count(measured, "response") + error + (assumed > 0 ? ", sRGB assumed for " + std::to_string(assumed) : "");
   return wall_.blend.matchesLight() && options_.only.empty() ? responses + ", " + matchProjectors() : responses;
+}
+
+std::map<std::string, MeasuredResponse> Procedure::responsesByCamera() {
+  if (!measuresResponses()) return {};
+  tookResponses_ = true;
+  auto result =
+      measureResponses(wall_, calibration_, options_.only, photographs("gamma"), progress_,
+                       [this](const std::string& name, const std::string& problem) { reportFailure(name, problem); });
+  if (result.camera) {
+    camera_ = result.camera;
+    calibration_.camera->response = "calibration/camera-response.csv";
+    responses_[*calibration_.camera->response] = formatCameraResponse(*camera_);
+  }
+  return std::move(result.responses);
+}
+
+bool Procedure::measuresResponses() const {
+  return std::ranges::any_of(wall_.projectors, [this](const ProjectorConfig& projector) {
+    return projector.gammaByCamera && calibration_.find(projector.name) != nullptr &&
+           (options_.only.empty() || options_.only.contains(projector.name));
+  });
+}
+
+bool Procedure::keepsResponse(const std::string& projector) const {
+  const auto config = std::ranges::find(wall_.projectors, projector, &ProjectorConfig::name);
+  const bool byCamera = config != wall_.projectors.end() && config->gammaByCamera;
+  return byCamera && !options_.only.empty() && !options_.only.contains(projector);
+}
+
+CameraResponse Procedure::knownCameraResponse() const {
+  if (camera_) return *camera_;
+  const auto& stored = calibration_.camera->response;
+  return cameraResponse(wall_.camera, stored ? std::optional((folder_ / *stored).string()) : std::nullopt);
 }
 
 std::string Procedure::matchProjectors() {
@@ -370,9 +423,11 @@ std::string Procedure::matchProjectors() {
     const auto painted = masks_.find(path);
     masks.push_back(painted != masks_.end() ? painted->second : devices::readPng16(folder_ / path));
     const auto config = std::ranges::find(wall_.projectors, projector.name, &ProjectorConfig::name);
-    leak.push_back(config != wall_.projectors.end() && config->gamma ? leakOf(folder_ / *config->gamma) : -1);
+    const bool read = config != wall_.projectors.end() && config->gamma;
+    leak.push_back(read ? leakOf(folder_ / *config->gamma) : projector.leak.value_or(-1));
   }
-  const LightResult light = matchLight(wall_, calibration_, method_, masks, leak, source, progress_);
+  const LightResult light =
+      matchLight(wall_, calibration_, method_, masks, leak, knownCameraResponse(), source, progress_);
   for (auto& projector : calibration_.projectors) {
     projector.light = light.matches.at(projector.name);
     projector.measured = light.measured.at(projector.name);
@@ -389,7 +444,7 @@ void Procedure::save() {
   for (const auto& [path, mask] : masks_) devices::writePng(folder_ / path, mask, devices::PngEffort::kFast);
   for (const auto& [path, text] : responses_) devices::writeFileAtomically(folder_ / path, text);
   saveCalibration(folder_, calibration_);
-  if (tookPhotographs_) photographs_->keep();
+  if (tookPhotographs_ || tookResponses_) photographs_->keep(tookPhotographs_ ? Kept::kAll : Kept::kResponse);
 }
 
 }  // namespace pixelflex::calib

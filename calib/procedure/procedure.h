@@ -12,6 +12,7 @@
 #include "calib/procedure/procedure_error.h"
 #include "calib/procedure/progress.h"
 #include "calib/procedure/projector_step.h"
+#include "calib/procedure/response_step.h"
 #include "calib/store/store.h"
 #include "devices/image/image.h"
 
@@ -72,6 +73,12 @@ class Procedure {
   std::string runBlend();
   std::string runGamma();
   std::string matchProjectors();
+  [[nodiscard]] bool measuresResponses() const;
+  /// Repairs leave the responses that the camera measured of the other projectors as they are.
+  [[nodiscard]] bool keepsResponse(const std::string& projector) const;
+  [[nodiscard]] CameraResponse knownCameraResponse() const;
+  /// Of the projectors measured in this run.
+  std::map<std::string, MeasuredResponse> responsesByCamera();
 
   [[nodiscard]] std::vector<const ProjectorConfig*> wantedProjectors() const;
   [[nodiscard]] std::vector<SurfaceFit> surfacesFor(const std::vector<SeenProjector>& seen);
@@ -88,6 +95,8 @@ class Procedure {
   ProcedureOptions options_;
   Method method_ = Method::kBlobs;
   bool tookPhotographs_ = false;
+  bool tookResponses_ = false;
+  std::optional<CameraResponse> camera_;           // where it was measured in this run
   std::map<std::string, devices::Image16> masks_;  // by path relative to the folder
   std::map<std::string, std::string> responses_;   // likewise
 };

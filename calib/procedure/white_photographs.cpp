@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "calib/patterns/colour_fields.h"
+#include "calib/procedure/camera_places.h"
 #include "calib/procedure/procedure_error.h"
 
 namespace pixelflex::calib {
@@ -14,8 +15,9 @@ using devices::ImageF;
 
 class WhitePhotographer {
  public:
-  WhitePhotographer(const Calibration& calibration, Method method, int nodesAcross, Photographs& source)
-      : calibration_(calibration), method_(method), nodesAcross_(nodesAcross), source_(source) {
+  WhitePhotographer(const Calibration& calibration, const CameraResponse& camera, Method method, int nodesAcross,
+                    Photographs& source)
+      : calibration_(calibration), camera_(camera), method_(method), nodesAcross_(nodesAcross), source_(source) {
     for (const auto& projector : calibration.projectors) mappings_.emplace_back(projector);
   }
 
@@ -28,7 +30,7 @@ class WhitePhotographer {
       source_.choosePlace(place);
       for (std::size_t i = 0; i < mappings_.size(); ++i) {
         if (places[i] != place) continue;
-        fields[i] = photographOne(i, viewFrom(place));
+        fields[i] = photographOne(i, viewFromPlace(calibration_, place));
         progress.advance(++done, static_cast<int>(mappings_.size()), calibration_.projectors[i].name + " light");
       }
     }
@@ -36,39 +38,15 @@ class WhitePhotographer {
   }
 
  private:
-  [[nodiscard]] ScreenView viewFrom(int place) const {
-    if (place == 0) return ScreenView(*calibration_.surface);
-    const auto further = static_cast<std::size_t>(place) - 1;
-    if (further < calibration_.places.size()) return ScreenView(calibration_.places[further]);
-    throw ProcedureError("the wall was measured from fewer camera places: photograph it from the same ones");
-  }
-
-  /// How much of a frame lies in the camera's picture, 0..1.
-  [[nodiscard]] double seenShare(std::size_t i, const ScreenView& view) const {
-    constexpr int kSteps = 12;
-    const CameraMapping camera(*calibration_.camera);
-    const devices::Size frame = mappings_[i].resolution();
-    const devices::Size picture = calibration_.camera->size;
-    int seen = 0;
-    for (int k = 0; k < kSteps * kSteps; ++k) {
-      const glm::dvec2 part((k % kSteps + 0.5) / kSteps, (static_cast<int>(k / kSteps) + 0.5) / kSteps);
-      const auto inWall = mappings_[i].wallFromProjector({part.x * frame.width, part.y * frame.height});
-      if (!inWall) continue;
-      const glm::dvec2 raw = camera.rawFromUndistorted(view.imageFromWall(*inWall));
-      if (raw.x > 0 && raw.y > 0 && raw.x < picture.width && raw.y < picture.height) ++seen;
-    }
-    return double(seen) / (kSteps * kSteps);
-  }
-
   [[nodiscard]] std::vector<int> bestPlaces() const {
     std::vector<int> best(mappings_.size(), -1);
     std::vector<double> most(mappings_.size(), 0);
     for (int place = 0; place < source_.placeCount(); ++place) {
       source_.choosePlace(place);
-      const ScreenView view = viewFrom(place);
+      const ScreenView view = viewFromPlace(calibration_, place);
       for (std::size_t i = 0; i < mappings_.size(); ++i) {
         if (!source_.hasProjector(calibration_.projectors[i].name)) continue;
-        const double share = seenShare(i, view);
+        const double share = seenShare(mappings_[i], view, *calibration_.camera);
         if (share <= most[i]) continue;
         most[i] = share;
         best[i] = place;
@@ -92,7 +70,8 @@ class WhitePhotographer {
     const double rows = double(nodesAcross_) * projector.resolution.height / projector.resolution.width;
     const devices::Size lattice{nodesAcross_, std::max(2, static_cast<int>(std::lround(rows)))};
     const CameraMapping camera(*calibration_.camera);
-    return {measureLight(black, white, mappings_[i], view, camera, lattice), primariesOf(i, black, white, view)};
+    return {measureLight(black, white, mappings_[i], view, camera, lattice, camera_),
+            primariesOf(i, black, white, view)};
   }
 
   /// Sums over a coarse lattice of what the camera sees of all fields.
@@ -106,7 +85,7 @@ class WhitePhotographer {
     if (!taken) return std::nullopt;
     const CameraMapping camera(*calibration_.camera);
     const auto lightOf = [&](const devices::Image8& photo) {
-      return measureLight(black, photo, mappings_[i], view, camera, kLattice).light;
+      return measureLight(black, photo, mappings_[i], view, camera, kLattice, camera_).light;
     };
     const ImageF all = lightOf(white);
     Matrix3 primaries{};
@@ -160,6 +139,7 @@ class WhitePhotographer {
   }
 
   const Calibration& calibration_;
+  const CameraResponse& camera_;
   Method method_;
   int nodesAcross_;
   Photographs& source_;
@@ -168,9 +148,10 @@ class WhitePhotographer {
 
 }  // namespace
 
-std::vector<PhotographedLight> photographLight(const Calibration& calibration, Method method, int nodesAcross,
-                                               Photographs& source, Progress& progress) {
-  return WhitePhotographer(calibration, method, nodesAcross, source).photograph(progress);
+std::vector<PhotographedLight> photographLight(const Calibration& calibration, const CameraResponse& camera,
+                                               Method method, int nodesAcross, Photographs& source,
+                                               Progress& progress) {
+  return WhitePhotographer(calibration, camera, method, nodesAcross, source).photograph(progress);
 }
 
 std::vector<ImageF> withoutVignetting(const Calibration& calibration,

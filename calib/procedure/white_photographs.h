@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "calib/capture/photographs.h"
+#include "calib/estimate/camera_response.h"
 #include "calib/estimate/light_field.h"
 #include "calib/patterns/method.h"
 #include "calib/photometric/gamut.h"
@@ -21,9 +22,10 @@ struct PhotographedLight {
 };
 
 /// The light of every calibrated projector, in their order, each photographed from the place of the camera that shows
-/// most of it. `nodesAcross`: of the fields' lattices, along the frame's width. The camera goes round at most twice.
-/// Throws ProcedureError, CaptureError.
-[[nodiscard]] std::vector<PhotographedLight> photographLight(const Calibration& calibration, Method method,
+/// most of it. `camera`: what its codes stand for. `nodesAcross`: of the fields' lattices, along the frame's width. The
+/// camera goes round at most twice. Throws ProcedureError, CaptureError.
+[[nodiscard]] std::vector<PhotographedLight> photographLight(const Calibration& calibration,
+                                                             const CameraResponse& camera, Method method,
                                                              int nodesAcross, Photographs& source, Progress& progress);
 
 /// White as a camera without vignetting would have seen it, three channels. Throws EstimateError.

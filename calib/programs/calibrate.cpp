@@ -17,6 +17,7 @@
 #include "calib/capture/live_photographs.h"
 #include "calib/geometry/nudge_map.h"
 #include "calib/patterns/colour_fields.h"
+#include "calib/patterns/response_pattern.h"
 #include "calib/procedure/drift_check.h"
 #include "calib/procedure/procedure.h"
 #include "calib/procedure/summary.h"
@@ -95,9 +96,10 @@ void writePatternFolder(const Wall& wall, const Arguments& arguments) {
   std::vector<ProjectorPatterns> projectors;
   std::size_t patterns = 0;
   for (const auto& config : wall.projectors) {
-    auto& projector = projectors.emplace_back(config.name, config.resolution, patternsOf(method, config.resolution));
-    if (wall.blend.matchesLight())
-      std::ranges::copy(colourFields(config.resolution), std::back_inserter(projector.patterns));
+    const devices::Size size = config.resolution;
+    auto& projector = projectors.emplace_back(config.name, size, patternsOf(method, size));
+    if (wall.blend.matchesLight()) std::ranges::move(colourFields(size), std::back_inserter(projector.patterns));
+    if (config.gammaByCamera) std::ranges::move(responsePatterns(size), std::back_inserter(projector.patterns));
     patterns += projector.patterns.size();
   }
   writePatterns(arguments.patterns, projectors, method);
@@ -115,9 +117,10 @@ void requireProjectors(const Wall& wall, const std::string& option, const std::v
 
 /// Measured steps can be left alone when their photographs are out of reach but only later ones were asked for.
 bool needsPhotographs(const Wall& wall, const Arguments& arguments) {
+  const bool photographsLight =
+      wall.blend.matchesLight() || std::ranges::any_of(wall.projectors, &ProjectorConfig::gammaByCamera);
   const auto measured = [&](const std::string& step) {
-    return step == "camera" || step == "surface" || step == "projectors" ||
-           (step == "gamma" && wall.blend.matchesLight());
+    return step == "camera" || step == "surface" || step == "projectors" || (step == "gamma" && photographsLight);
   };
   return arguments.steps.empty() || std::ranges::any_of(arguments.steps, measured);
 }

@@ -33,12 +33,15 @@ constexpr std::array kRemarks = {
         "  # fiducials.png.\n"},
     Remark{"camera:",
            "\n# Where photographs of the wall come from: photos (files taken with any camera), v4l2:/dev/video0,\n"
-           "# aravis:NAME, sim, or none (a wall that needs no camera).\n"},
+           "# aravis:NAME, sim, or none (a wall that needs no camera). Optional: `transfer: linear` or `srgb` says how "
+           "they\n"
+           "# encode light; without it they count as linear unless gamma: camera measures it.\n"},
     Remark{"  checkerboard:", "  # Inner corners (columns, rows) and the side of a square in millimetres.\n"},
     Remark{"projectors:",
            "\n# Every projector or screen. `output` says where it is plugged in: {monitor: HDMI-1} by its name,\n"
            "# {display: \":0\", at: [1024, 0]} by display and position, sim, or none.\n"
-           "# Optional: `gamma: readings/p1.csv`, 256 rows value,red,green,blue in any linear unit of light;\n"
+           "# Optional: `gamma: readings/p1.csv`, 256 rows value,red,green,blue in any linear unit of light, or\n"
+           "# `gamma: camera`, which measures them with the camera at several exposures; without it sRGB is assumed;\n"
            "# `control: {driver: pjlink, at: \"tcp://10.0.0.5:4352\"}`; `mirror: {driver: ptu, at: "
            "\"tcp://10.0.0.9:2101\"}`.\n"},
     Remark{"    flat:",

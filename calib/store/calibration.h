@@ -22,6 +22,9 @@ struct CameraIntrinsics {
   std::array<double, 2> tangential{};
   double rmsPx = 0;  // reprojection error of the checkerboard corners
   int photos = 0;
+  /// 256 rows value,red,green,blue: the light of the codes of its photographs; relative to the wall's folder. None: as
+  /// wall.yaml says, else linear.
+  std::optional<std::string> response;
   bool operator==(const CameraIntrinsics&) const = default;
 };
 
@@ -125,6 +128,8 @@ struct ProjectorCalibration {
   std::optional<std::string>
       response;  // 256 rows value,red,green,blue; normalised light, relative to the wall's folder
   std::optional<MeasuredLight> measured;
+  std::optional<double> responseError;  // relative to light, RMS, where the camera measured the response
+  std::optional<double> leak;           // light of black over white above black, where that is known
   std::optional<LightMatch> light;
   std::optional<Nudge> nudge;        // from nudge.yaml; not part of calibration.yaml
   std::optional<glm::ivec2> flatAt;  // an exact screen: shows desktop pixels one to one from here

@@ -41,6 +41,7 @@ CameraIntrinsics readCamera(const Node& node) {
   camera.tangential = readArray<2>(node.required("tangential"));
   camera.rmsPx = node.required("rms_px").number(0, kHuge);
   camera.photos = node.required("photos").integer(0, 1'000'000);
+  if (const Node file = node.optional("response"); file.defined()) camera.response = readText(file, kMaxPath);
   node.refuseUnknownKeys();
   return camera;
 }
@@ -165,6 +166,10 @@ ProjectorCalibration readProjector(const Node& node) {
   if (const Node quality = node.optional("quality"); quality.defined()) projector.quality = readQuality(quality);
   if (const Node alpha = node.optional("alpha"); alpha.defined()) projector.alpha = readText(alpha, kMaxPath);
   if (const Node file = node.optional("response"); file.defined()) projector.response = readText(file, kMaxPath);
+  if (const Node error = node.optional("response_error"); error.defined()) {
+    projector.responseError = error.number(0, kHuge);
+  }
+  if (const Node leak = node.optional("leak"); leak.defined()) projector.leak = leak.number(0, 1);
   if (const Node seen = node.optional("measured_light"); seen.defined()) projector.measured = readMeasured(seen);
   if (const Node light = node.optional("light"); light.defined()) projector.light = readLight(light);
   projector.flatAt = readFlat(node.optional("flat"), projector.resolution);

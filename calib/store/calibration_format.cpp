@@ -9,12 +9,13 @@ namespace pixelflex::calib {
 namespace {
 
 std::string cameraText(const CameraIntrinsics& camera) {
-  return fmt::format(
+  std::string text = fmt::format(
       "camera:\n  size: [{}, {}]\n  fx: {}\n  fy: {}\n  cx: {}\n  cy: {}\n  radial: {}\n  tangential: {}\n"
       "  rms_px: {}\n  photos: {}\n",
       camera.size.width, camera.size.height, yamlNumber(camera.fx), yamlNumber(camera.fy), yamlNumber(camera.cx),
       yamlNumber(camera.cy), yamlList(camera.radial), yamlList(camera.tangential), yamlNumber(camera.rmsPx),
       camera.photos);
+  return camera.response ? text + fmt::format("  response: {}\n", yamlText(*camera.response)) : text;
 }
 
 std::string bendText(const Bend& bend) {
@@ -103,6 +104,8 @@ std::string projectorText(const ProjectorCalibration& projector) {
                   projector.resolution.height, modelText(projector.model), qualityText(projector.quality));
   if (projector.alpha) text += fmt::format("    alpha: {}\n", yamlText(*projector.alpha));
   if (projector.response) text += fmt::format("    response: {}\n", yamlText(*projector.response));
+  if (projector.responseError) text += fmt::format("    response_error: {}\n", yamlNumber(*projector.responseError));
+  if (projector.leak) text += fmt::format("    leak: {}\n", yamlNumber(*projector.leak));
   if (projector.measured) text += measuredText(*projector.measured);
   if (projector.light) text += lightText(*projector.light);
   if (const auto& at = projector.flatAt) text += fmt::format("    flat: {{at: [{}, {}]}}\n", at->x, at->y);

@@ -81,7 +81,13 @@ void checkWallFiles(const std::filesystem::path& folder, const Wall& wall, Probl
   const YamlReader reader(readStoreFile(path), path);
   Checker checker(folder, problems);
   const Node list = reader.root().optional("projectors");
-  for (std::size_t i = 0; i < wall.projectors.size(); ++i) checker.checkReadingsAt(list.at(i).optional("gamma"));
+  for (std::size_t i = 0; i < wall.projectors.size(); ++i) {
+    const Node gamma = list.at(i).optional("gamma");
+    if (!wall.projectors[i].gammaByCamera) checker.checkReadingsAt(gamma);
+    if (wall.projectors[i].gammaByCamera && wall.camera.source == "none") {
+      gamma.problem("gamma: camera needs a camera, and there is none (source: none)");
+    }
+  }
   (void)checker.exists(reader.root().optional("rig"));
   append(problems, reader.problems());
 }
@@ -103,6 +109,7 @@ void checkCalibrationFiles(const std::filesystem::path& folder, const Calibratio
   const auto path = (folder / "calibration.yaml").string();
   const YamlReader reader(readStoreFile(path), path);
   Checker checker(folder, problems);
+  checker.checkReadingsAt(reader.root().optional("camera").optional("response"));
   const Node list = reader.root().optional("projectors");
   for (std::size_t i = 0; i < calibration.projectors.size(); ++i) {
     const auto& projector = calibration.projectors[i];

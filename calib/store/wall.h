@@ -37,9 +37,12 @@ struct Checkerboard {
   bool operator==(const Checkerboard&) const = default;
 };
 
+enum class Transfer { kSrgb, kLinear };
+
 struct CameraSource {
   std::string source = "photos";  // photos, sim, none, v4l2:DEVICE, aravis:NAME
   std::optional<Checkerboard> checkerboard;
+  std::optional<Transfer> transfer;  // how photographs encode light; none: as was measured, else linear
   bool operator==(const CameraSource&) const = default;
 };
 
@@ -66,6 +69,7 @@ struct ProjectorConfig {
   devices::Size resolution;
   Output output;
   std::optional<std::string> gamma;  // path of 256 readings, relative to the wall's folder
+  bool gammaByCamera = false;        // or the camera measures the response
   std::optional<DeviceLine> control;
   std::optional<DeviceLine> mirror;
   std::optional<glm::ivec2> flatAt;  // flat walls: the desktop pixel that this screen's top-left pixel shows
@@ -114,8 +118,6 @@ struct DesktopRequest {
   FilterDomain filterDomain = FilterDomain::kSrgb;
   bool operator==(const DesktopRequest&) const = default;
 };
-
-enum class Transfer { kSrgb, kLinear };
 
 /// wall.yaml: what there is, as a person wrote it.
 struct Wall {

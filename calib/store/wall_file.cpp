@@ -82,6 +82,7 @@ CameraSource readCamera(const Node& node) {
     source.problem("expected photos, sim, none, v4l2:DEVICE or aravis:NAME, found " + quotedForMessage(camera.source));
   }
   if (const Node board = node.optional("checkerboard"); board.defined()) camera.checkerboard = readCheckerboard(board);
+  if (const Node transfer = node.optional("transfer"); transfer.defined()) camera.transfer = readTransfer(transfer);
   node.refuseUnknownKeys();
   return camera;
 }
@@ -131,7 +132,11 @@ ProjectorConfig readProjector(const Node& node) {
   projector.name = readName(node.required("name"));
   projector.resolution = readSize(node.required("resolution"), kMinResolution, kMaxResolution);
   projector.output = readOutput(node.optional("output"));
-  if (const Node gamma = node.optional("gamma"); gamma.defined()) projector.gamma = readText(gamma, kMaxPath);
+  if (const Node gamma = node.optional("gamma"); gamma.defined()) {
+    const std::string text = readText(gamma, kMaxPath);
+    projector.gammaByCamera = text == "camera";
+    if (!projector.gammaByCamera) projector.gamma = text;
+  }
   projector.control = readDevice(node.optional("control"));
   projector.mirror = readDevice(node.optional("mirror"));
   projector.flatAt = readFlat(node.optional("flat"), projector.resolution);

@@ -28,8 +28,13 @@ std::string surfaceText(const Surface& surface) {
   return text;
 }
 
+std::string transferText(Transfer transfer) {
+  return transfer == Transfer::kLinear ? "linear" : "srgb";
+}
+
 std::string cameraText(const CameraSource& camera) {
   std::string text = fmt::format("camera:\n  source: {}\n", yamlText(camera.source));
+  if (camera.transfer) text += fmt::format("  transfer: {}\n", transferText(*camera.transfer));
   if (!camera.checkerboard) return text;
   const auto& board = *camera.checkerboard;
   return fmt::format("{}  checkerboard: {{corners: [{}, {}], square: {}}}\n", text, board.columns, board.rows,
@@ -51,6 +56,7 @@ std::string deviceText(std::string_view key, const std::optional<DeviceLine>& li
 std::string projectorText(const ProjectorConfig& projector) {
   std::string text = fmt::format("  - name: {}\n    resolution: [{}, {}]\n    output: {}\n", yamlText(projector.name),
                                  projector.resolution.width, projector.resolution.height, outputText(projector.output));
+  if (projector.gammaByCamera) text += "    gamma: camera\n";
   if (projector.gamma) text += fmt::format("    gamma: {}\n", yamlText(*projector.gamma));
   text += deviceText("control", projector.control) + deviceText("mirror", projector.mirror);
   if (const auto& at = projector.flatAt) text += fmt::format("    flat: {{at: [{}, {}]}}\n", at->x, at->y);
@@ -98,7 +104,7 @@ std::string formatWall(const Wall& wall) {
   for (const auto& projector : wall.projectors) text += projectorText(projector);
   text += blendText(wall.blend);
   text += displayText(wall.display) + desktopText(wall.desktop);
-  return text + fmt::format("transfer: {}\n", wall.transfer == Transfer::kLinear ? "linear" : "srgb");
+  return text + fmt::format("transfer: {}\n", transferText(wall.transfer));
 }
 
 }  // namespace pixelflex::calib

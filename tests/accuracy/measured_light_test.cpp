@@ -32,8 +32,8 @@ double errorOfMeasuredWhite(const Rig& rig) {
   for (std::size_t i = 0; i < room.projectorCount(); ++i) projectors.push_back(&room.projector(i));
   LivePhotographs photographs(room.camera(), projectors, room.person(), {}, "test", 0, room.placeCount());
   RecordedProgress progress;
-  const auto fields =
-      withoutVignetting(calibration, photographLight(calibration, Method::kBlobs, 48, photographs, progress));
+  const auto fields = withoutVignetting(
+      calibration, photographLight(calibration, linearCamera(), Method::kBlobs, 48, photographs, progress));
   Spread spread;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const devices::Size frame = calibration.projectors[i].resolution;

@@ -11,7 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "calib/capture/exposure_name.h"
 #include "calib/capture/folder_photographs.h"
+#include "calib/patterns/response_pattern.h"
 #include "devices/image/atomic_file.h"
 #include "devices/image/png_file.h"
 #include "tests/support/temporary_folder.h"
@@ -178,7 +180,7 @@ TEST_F(CaptureTest, KeepsNothingUntilAskedAndThenWhatWasUsed) {
   auto photographs = open({photos()});
   useAll(photographs, {"p1"}, "white");
   EXPECT_FALSE(fs::exists(captures()));
-  photographs.keep();
+  photographs.keep(Kept::kAll);
   EXPECT_THAT(filesIn(captures()), ElementsAre("checkerboard/1.png", "fiducials.png", "p1/white.png"));
   EXPECT_FALSE(fs::exists(captures().string() + ".new"));
 }
@@ -188,7 +190,7 @@ TEST_F(CaptureTest, SeveralPlacesAreReadBackFromCaptures) {
   writePhoto(photos() / "right/checkerboard/1.png", 3);
   auto first = open({photos()});
   useAll(first, {"p1", "p2", "p3"}, "white");
-  first.keep();
+  first.keep(Kept::kAll);
   auto again = open({captures()});
   ASSERT_EQ(again.placeCount(), 2);
   EXPECT_EQ(again.checkerboardCount(), 2);
@@ -196,7 +198,7 @@ TEST_F(CaptureTest, SeveralPlacesAreReadBackFromCaptures) {
   EXPECT_EQ(codeSeen(again, "p2", "white"), 12);
   again.choosePlace(1);
   EXPECT_EQ(codeSeen(again, "p2", "white"), 22);
-  again.keep();  // nothing to copy, nothing lost
+  again.keep(Kept::kAll);  // nothing to copy, nothing lost
   EXPECT_EQ(filesIn(captures()).size(), 7U);
 }
 
@@ -204,18 +206,18 @@ TEST_F(CaptureTest, AnEarlierNumberOfPlacesLeavesNothingBehind) {
   writeTwoPlaces();
   auto two = open({photos()});
   useAll(two, {"p1", "p2", "p3"}, "white");
-  two.keep();
+  two.keep(Kept::kAll);
   fs::remove_all(photos());
   writeOnePlace(50);
   auto one = open({photos()});
   useAll(one, {"p1"}, "white");
-  one.keep();
+  one.keep(Kept::kAll);
   EXPECT_THAT(filesIn(captures()), ElementsAre("checkerboard/1.png", "fiducials.png", "p1/white.png"));
   fs::remove_all(photos());
   writeTwoPlaces();
   auto twoAgain = open({photos()});
   useAll(twoAgain, {"p1", "p2", "p3"}, "white");
-  twoAgain.keep();
+  twoAgain.keep(Kept::kAll);
   EXPECT_THAT(filesIn(captures()), ElementsAre("checkerboard/1.png", "place1/fiducials.png", "place1/p1/white.png",
                                                "place1/p2/white.png", "place2/p2/white.png", "place2/p3/white.png"));
 }
@@ -230,7 +232,7 @@ TEST_F(CaptureTest, PhotographsOfAnotherMethodOrEndingGo) {
   writeOnePlace(7);
   auto photographs = open({photos()});
   useAll(photographs, {"p1"}, "white");
-  photographs.keep();
+  photographs.keep(Kept::kAll);
   EXPECT_THAT(filesIn(captures()),
               ElementsAre("checkerboard/1.png", "fiducials.png", "notes.txt", "p1/white.png", "p2/white.png"));
 }
@@ -240,7 +242,7 @@ TEST_F(CaptureTest, AProjectorMayBeCalledLikeAPlace) {
   writeOnePlace(7);
   auto photographs = open({photos()});
   useAll(photographs, {"p1"}, "white");
-  photographs.keep();
+  photographs.keep(Kept::kAll);
   EXPECT_TRUE(fs::exists(captures() / "place1/white.png"));
 }
 
@@ -259,6 +261,84 @@ TEST_F(CaptureTest, TheStampChangesWithAPhotographOfAnyPlace) {
 
 ProjectorPatterns patternsFor(const std::string& name, devices::Size size, Method method) {
   return {name, size, patternsOf(method, size)};
+}
+
+TEST(ExposureName, SaysTheExposure) {
+  EXPECT_NEAR(exposureOfName("red-128@1_60").value(), 1.0 / 60, 1e-12);
+  EXPECT_EQ(exposureOfName("red-128@0.5"), 0.5);
+  EXPECT_EQ(exposureOfName("red-128@2"), 2);
+  for (const auto* name : {"red-128", "red-128@", "red-128@a", "red-128@1_", "red-128@_60", "red-128@1_0", "r@-1",
+                           "r@0", "r@nan", "r@inf", "r@1s"}) {
+    EXPECT_FALSE(exposureOfName(name)) << name;
+  }
+  EXPECT_EQ(patternOfName("red-128@1_60"), "red-128");
+  EXPECT_EQ(patternOfName("red-128"), "red-128");
+  for (const double seconds : {1e-4, 1.0 / 60, 0.0274605, 30.0}) {
+    EXPECT_NEAR(exposureOfName(nameWithExposure("blue-008", seconds)).value(), seconds, 1e-5 * seconds);
+  }
+}
+
+TEST_F(CaptureTest, FindsEveryExposureOfAPattern) {
+  writeOnePlace(7);
+  writePhoto(photos() / "p1/red-128@1_4.png", 60);
+  writePhoto(photos() / "p1/red-128@1.png", 240);
+  writePhoto(photos() / "p1/red-135.png", 9);
+  auto photographs = open({photos()});
+  EXPECT_FALSE(photographs.exposureRange());
+  EXPECT_TRUE(photographs.hasExposures("p1", "red-128"));
+  EXPECT_FALSE(photographs.hasExposures("p1", "red-12"));
+  const auto shots = photographs.exposures("p1", "red-128");
+  ASSERT_EQ(shots.size(), 2U);
+  EXPECT_EQ(shots[0].seconds, 1);
+  EXPECT_EQ(shots[1].seconds, 0.25);
+  EXPECT_EQ(shots[1].photo.at(0, 0), 60);
+  EXPECT_FALSE(photographs.exposures("p1", "red-135").front().seconds);
+  writePhoto(photos() / "p1/red-143@x.png", 9);
+  EXPECT_THAT([&] { (void)photographs.exposures("p1", "red-143"); },
+              ::testing::ThrowsMessage<CaptureError>(HasSubstr("p1/red-143@x.png: after the @")));
+  EXPECT_THAT(
+      [&] { (void)photographs.exposures("p1", "red-151"); },
+      ::testing::ThrowsMessage<CaptureError>(HasSubstr("p1/red-151.png (or .jpg): this photograph is missing")));
+}
+
+TEST_F(CaptureTest, PhotographsOfTheResponseAreAKindOfTheirOwn) {
+  writeOnePlace(7);
+  auto first = open({photos()});
+  const std::string patterns = first.stamp("patterns");
+  const std::string response = first.stamp("response");
+  useAll(first, {"p1"}, "white");
+  first.keep(Kept::kAll);
+  writePhoto(captures() / "p1/red-120@1.png", 1);
+  writePhoto(photos() / "p1/red-128@1.png", 60);
+  auto second = open({photos()});
+  EXPECT_EQ(second.stamp("patterns"), patterns);
+  EXPECT_NE(second.stamp("response"), response);
+  useAll(second, {"p1"}, "white");
+  (void)second.exposures("p1", "red-128");
+  fs::remove(captures() / "p1/white.png");
+  writePhoto(captures() / "p1/black.png", 5);
+  second.keep(Kept::kResponse);
+  EXPECT_THAT(filesIn(captures()),
+              ElementsAre("checkerboard/1.png", "fiducials.png", "p1/black.png", "p1/red-128@1.png"));
+  second.keep(Kept::kAll);
+  EXPECT_THAT(filesIn(captures()),
+              ElementsAre("checkerboard/1.png", "fiducials.png", "p1/red-128@1.png", "p1/white.png"));
+}
+
+TEST_F(CaptureTest, WritesTheLevelsOfAResponseWhereTheyAreWanted) {
+  writePatterns(photos(), {{"p1", {64, 48}, responsePatterns({64, 48})}, patternsFor("p2", {80, 60}, Method::kBlobs)});
+  EXPECT_EQ(filesIn(photos() / "p1").size(), 98U);
+  const auto level = devices::readPng8(photos() / "p1/green-064.png");
+  EXPECT_EQ(level.size(), (devices::Size{64, 48}));
+  ASSERT_EQ(level.channels(), 3);
+  EXPECT_EQ(level.at(63, 47, 0), 0);
+  EXPECT_EQ(level.at(63, 47, 1), 64);
+  EXPECT_EQ(level.at(63, 47, 2), 0);
+  EXPECT_EQ(devices::readPng8(photos() / "p1/blue-255.png").at(0, 0, 2), 255);
+  std::ifstream file(photos() / "README.txt");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  EXPECT_THAT(text, HasSubstr("The response of p1\n"));
+  EXPECT_THAT(text, HasSubstr("red-128@1_60.jpg"));
 }
 
 TEST_F(CaptureTest, WritesThePatternsOfAMethodWithInstructions) {

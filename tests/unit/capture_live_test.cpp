@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -45,20 +47,28 @@ class Person final : public devices::Operator {
   int place = 0;
 };
 
-/// Sees what the projector shows, and from where.
-class Eye final : public devices::Camera {
+/// Sees what the projector shows, and from where; twice as bright when exposed twice as long.
+class Eye final : public devices::Camera, public devices::ExposureControl {
  public:
   Eye(const OneProjector& projector, const Person& person) : projector_(projector), person_(person) {}
   [[nodiscard]] devices::Size size() const override { return {4, 3}; }
   [[nodiscard]] Image8 shoot() override {
     Image8 photo(size(), 3);
-    for (auto& code : photo.samples()) code = static_cast<std::uint8_t>(projector_.shown + person_.place);
+    const double seen = projector_.shown * seconds_ / kUsual;
+    for (auto& code : photo.samples()) code = static_cast<std::uint8_t>(std::lround(seen) + person_.place);
     return photo;
   }
+  [[nodiscard]] devices::ExposureControl* exposureControl() override { return canExpose ? this : nullptr; }
+  [[nodiscard]] devices::ExposureRange exposureRange() const override { return {.shortest = 0.001, .longest = 1}; }
+  [[nodiscard]] double exposure() override { return seconds_; }
+  double setExposure(double seconds) override { return seconds_ = std::clamp(seconds, 0.001, 1.0); }
+  static constexpr double kUsual = 0.02;
+  bool canExpose = true;
 
  private:
   const OneProjector& projector_;
   const Person& person_;
+  double seconds_ = kUsual;
 };
 
 ProjectedPattern grey(int code) {
@@ -91,7 +101,7 @@ class LiveTest : public ::testing::Test {
 TEST_F(LiveTest, NothingIsReplacedBeforeKeep) {
   auto& first = start(1);
   EXPECT_EQ(codeOf(first.pattern("p1", grey(40))), 40);
-  first.keep();
+  first.keep(Kept::kAll);
   EXPECT_EQ(codeOf(devices::readPng8(captures() / "p1/grey.png")), 40);
   auto& second = start(1);
   EXPECT_EQ(codeOf(second.pattern("p1", grey(80))), 80);
@@ -104,7 +114,7 @@ TEST_F(LiveTest, AFailedAttemptDoesNotMixWithTheNext) {
   EXPECT_EQ(codeOf(start(1).pattern("p1", {"stripes", "", grey(9).render})), 9);
   auto& next = start(1);
   EXPECT_EQ(codeOf(next.pattern("p1", grey(80))), 80);
-  next.keep();
+  next.keep(Kept::kAll);
   EXPECT_TRUE(fs::exists(captures() / "p1/grey.png"));
   EXPECT_FALSE(fs::exists(captures() / "p1/stripes.png"));
   EXPECT_FALSE(fs::exists(gathering()));
@@ -120,13 +130,45 @@ TEST_F(LiveTest, EveryPlaceHasItsPhotographs) {
     EXPECT_EQ(codeOf(live.fiducials().photo), place);
     EXPECT_EQ(codeOf(live.pattern("p1", grey(40))), 40 + place);
   }
-  live.keep();
+  live.keep(Kept::kAll);
   FolderPhotographs kept({captures()}, captures());
   ASSERT_EQ(kept.placeCount(), 3);
   EXPECT_EQ(kept.checkerboardCount(), 1);
   kept.choosePlace(2);
   EXPECT_EQ(codeOf(kept.pattern("p1", grey(0))), 42);
   EXPECT_EQ(codeOf(kept.fiducials().photo), 2);
+}
+
+TEST_F(LiveTest, ExposesAsAskedAndComesBackToTheUsual) {
+  auto& live = start(1);
+  ASSERT_TRUE(live.exposureRange());
+  EXPECT_EQ(live.exposureRange()->longest, 1);
+  EXPECT_EQ(live.usualExposure(), Eye::kUsual);
+  const auto shot = live.exposed("p1", grey(40), 0.06, {1, 1, 3, 2});
+  EXPECT_EQ(codeOf(shot.photo), 120);
+  EXPECT_EQ(shot.seconds, 0.06);
+  EXPECT_EQ(live.usualExposure(), Eye::kUsual);
+  EXPECT_EQ(live.exposed("p1", grey(0), 7, {0, 0, 4, 3}).seconds, 1) << "what the camera can";
+  EXPECT_EQ(codeOf(live.pattern("p1", {"other", "", grey(40).render})), 40);
+  live.keep(Kept::kAll);
+  const auto kept = devices::readPng8(captures() / "p1/grey@0.06.png");
+  EXPECT_EQ(kept.at(0, 0), 0) << "outside of the region";
+  EXPECT_EQ(kept.at(1, 1), 120);
+  EXPECT_EQ(kept.at(3, 1), 0);
+  FolderPhotographs again({captures()}, captures());
+  EXPECT_EQ(again.exposures("p1", "grey").size(), 2U);
+}
+
+TEST_F(LiveTest, TheExposureIsTheUsualOneWhateverEndsTheWork) {
+  (void)start(1).exposed("p1", grey(40), 0.5, {0, 0, 4, 3});
+  EXPECT_EQ(camera_.exposure(), 0.5);
+  live_.reset();
+  EXPECT_EQ(camera_.exposure(), Eye::kUsual);
+}
+
+TEST_F(LiveTest, ACameraMayNotBeToldItsExposure) {
+  camera_.canExpose = false;
+  EXPECT_FALSE(start(1).exposureRange());
 }
 
 TEST_F(LiveTest, SaysWhenTheCameraCannotBeMoved) {

@@ -170,7 +170,7 @@ TEST(ExposureMerge, OutOfRangeTheBestPhotographTells) {
   EXPECT_NEAR(patchLight(std::vector{photo(1, 255), photo(4, 255)}, linearCamera()).clipped, 1, 1e-9);
   const auto patch = patchLight(std::vector{photo(1, 100), photo(2, 200)}, linearCamera());
   EXPECT_NEAR(patch.light[2], 100 / 255.0, 1e-6);
-  EXPECT_NEAR(patch.deviation[2], 0, 1e-6);
+  EXPECT_NEAR(patch.deviation[2], 0.29 / 255 / 2, 1e-4);  // one code all over: rounding may have hidden a part of it
   EXPECT_EQ(patch.clipped, 0);
 }
 

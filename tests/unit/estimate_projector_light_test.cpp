@@ -7,6 +7,7 @@
 
 #include "calib/estimate/intrinsics.h"
 #include "calib/estimate/projector_response.h"
+#include "calib/patterns/response_pattern.h"
 #include "tests/unit/test_camera.h"
 
 namespace pixelflex::calib {
@@ -58,7 +59,6 @@ struct Bench {
     ResponseSeries all;
     for (std::size_t p = 0; p < 3; ++p) {
       for (const int code : responseLevels()) {
-        if (code == 0) continue;
         std::array<double, 3> drive{};
         drive.at(p) = device(code / 255.0);
         all.levels.at(p).push_back({code, patch(drive, response, random)});
@@ -158,7 +158,7 @@ TEST(ProjectorResponseTest, BadSeriesAreRefused) {
   expectRefused(swapped, "light falls where codes rise, near green level 1");
   auto clipped = good;
   clipped.levels[2][31].patch.clipped = 0.3;
-  expectRefused(clipped, "blue level 255 are over-exposed");
+  expectRefused(clipped, "blue level 255 is over-exposed");
   auto cut = good;
   cut.levels[0].pop_back();
   expectRefused(cut, "red needs five levels or more, rising to 255");

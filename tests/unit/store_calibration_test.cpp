@@ -75,6 +75,14 @@ TEST(StoreCalibration, RoundTripsBentScreensResidualsAndPlaces) {
   EXPECT_EQ(parseCalibration(formatCalibration(calibration), "calibration.yaml"), calibration);
 }
 
+TEST(StoreCalibration, RoundTripsWhatTheCameraMeasuredOfResponses) {
+  calib::Calibration calibration = exampleCalibration();
+  calibration.camera->response = "calibration/camera-response.csv";
+  calibration.projectors[0].responseError = 0.0081;
+  calibration.projectors[0].leak = 0.0023;
+  EXPECT_EQ(parseCalibration(formatCalibration(calibration), "calibration.yaml"), calibration);
+}
+
 TEST(StoreCalibration, RefusesASplineWithTheWrongNumberOfControlPoints) {
   calib::Calibration calibration = exampleCalibration();
   calibration.projectors[0].model.residual = calib::ResidualSpline{1, 1, std::vector<glm::dvec2>(15)};

@@ -84,6 +84,26 @@ TEST_F(StoreCheck, MissingFilesAreReportedWhereTheyAreNamed) {
                                       HasSubstr("response: there is no file calibration/p1-response.csv")));
 }
 
+TEST_F(StoreCheck, GammaFromTheCameraNeedsNoFileButACamera) {
+  std::filesystem::remove(folder() / "readings/p1.csv");
+  wall_.projectors[0].gamma.reset();
+  wall_.projectors[0].gammaByCamera = true;
+  calib::saveWall(folder(), wall_);
+  EXPECT_THAT(problems(), IsEmpty());
+  wall_.camera.source = "none";
+  calib::saveWall(folder(), wall_);
+  EXPECT_THAT(problems(), ElementsAre(HasSubstr("gamma: camera needs a camera")));
+}
+
+TEST_F(StoreCheck, TheCamerasResponseIsCheckedToo) {
+  calibration_.camera = calib::CameraIntrinsics{{640, 480}, 500, 500, 320, 240, {}, {}, 0.1, 15};
+  calibration_.camera->response = "calibration/camera-response.csv";
+  calib::saveCalibration(folder(), calibration_);
+  EXPECT_THAT(problems(), ElementsAre(HasSubstr("response: there is no file calibration/camera-response.csv")));
+  write("calibration/camera-response.csv", readings(255));
+  EXPECT_THAT(problems(), ElementsAre(HasSubstr("expected 256 readings, found 255")));
+}
+
 TEST_F(StoreCheck, ReadingsAreCheckedRowByRow) {
   std::string text = readings(256);
   text.replace(text.find("\n3,0.5") + 1, 5, "3,-1");

@@ -120,6 +120,24 @@ TEST(StoreWall, RoundTripsEveryFilter) {
   }
 }
 
+TEST(StoreWall, GammaMayBeMeasuredByTheCamera) {
+  const calib::Wall wall = parseWall(exampleWith("gamma: readings/p1.csv", "gamma: camera"), "wall.yaml");
+  EXPECT_TRUE(wall.projectors[0].gammaByCamera);
+  EXPECT_FALSE(wall.projectors[0].gamma);
+  EXPECT_EQ(parseWall(formatWall(wall), "wall.yaml"), wall);
+  EXPECT_EQ(parseWall(exampleWith("readings/p1.csv", "./camera"), "wall.yaml").projectors[0].gamma, "./camera");
+}
+
+TEST(StoreWall, RoundTripsTheCamerasTransfer) {
+  for (const auto transfer : {calib::Transfer::kLinear, calib::Transfer::kSrgb}) {
+    calib::Wall wall = exampleWall();
+    wall.camera.transfer = transfer;
+    EXPECT_EQ(parseWall(formatWall(wall), "wall.yaml"), wall) << formatWall(wall);
+  }
+  EXPECT_THAT(wallProblems(exampleWith("source: photos", "source: photos\n  transfer: raw")),
+              ElementsAre(::testing::HasSubstr("transfer: expected srgb or linear, found \"raw\"")));
+}
+
 TEST(StoreWall, MigratesVersionZero) {
   EXPECT_EQ(parseWall(dataFile("wall-v0.yaml"), "wall.yaml"), exampleWall());
 }

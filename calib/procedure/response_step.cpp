@@ -1,0 +1,195 @@
+#include "calib/procedure/response_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "calib/estimate/camera_transfer.h"
+#include "calib/estimate/projector_response.h"
+#include "calib/patterns/response_pattern.h"
+#include "calib/procedure/camera_places.h"
+#include "calib/procedure/frame_patch.h"
+#include "calib/procedure/patch_photographer.h"
+#include "calib/procedure/procedure_error.h"
+#include "calib/store/readings_file.h"
+#include "calib/store/yaml_reader.h"
+
+namespace pixelflex::calib {
+namespace {
+
+constexpr int kFirstChartStop = -2;  // powers of two of the usual exposure
+constexpr int kLastChartStop = 6;
+
+class ResponseMeter {
+ public:
+  ResponseMeter(const Wall& wall, const Calibration& calibration, const std::set<std::string>& only,
+                Photographs& source, Progress& progress)
+      : wall_(wall), calibration_(calibration), source_(source), progress_(progress) {
+    for (const auto& projector : calibration.projectors) {
+      const auto config = std::ranges::find(wall.projectors, projector.name, &ProjectorConfig::name);
+      const bool wanted = config != wall.projectors.end() && config->gammaByCamera;
+      if (wanted && (only.empty() || only.contains(projector.name))) wanted_.push_back(&projector);
+    }
+  }
+
+  ResponseResult measure(const ResponseFailure& fail) {
+    ResponseResult result;
+    if (wanted_.empty()) return result;
+    result.camera = measureCamera();
+    const CameraResponse camera = result.camera ? *result.camera : cameraResponse(wall_.camera, std::nullopt);
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+      const std::string& name = wanted_[i]->name;
+      try {
+        result.responses[name] = measureOne(i, camera);
+      } catch (const LevelError& error) {
+        const auto level = levelPattern(wanted_[i]->resolution, error.channel(), error.code());
+        fail(name, patternPath(name, level).string() + ": " + error.what());
+      } catch (const EstimateError& error) {
+        fail(name, error.what());
+      }
+    }
+    return result;
+  }
+
+ private:
+  /// Where the camera sees most of it and, if they exist already, photographs of this pattern were taken.
+  [[nodiscard]] std::optional<int> bestPlace(const ProjectorCalibration& projector, const std::string& pattern) {
+    const ProjectorMapping mapping(projector);
+    std::optional<int> best;
+    double most = 0;
+    for (int place = 0; place < source_.placeCount(); ++place) {
+      const double share = seenShare(mapping, viewFromPlace(calibration_, place), *calibration_.camera);
+      if (share <= most) continue;
+      if (!source_.exposureRange() && !hasPhotographs(place, projector.name, pattern)) continue;
+      most = share;
+      best = place;
+    }
+    return best;
+  }
+
+  [[nodiscard]] bool hasPhotographs(int place, const std::string& projector, const std::string& pattern) {
+    source_.choosePlace(place);
+    return source_.hasExposures(projector, pattern);
+  }
+
+  /// None where it is stated, or counts as linear for want of photographs.
+  [[nodiscard]] std::optional<CameraResponse> measureCamera() {
+    if (wall_.camera.transfer) return std::nullopt;
+    for (const auto* projector : wanted_) {
+      const auto chart = responseChart(projector->resolution);
+      const auto place = bestPlace(*projector, chart.name);
+      if (!place) continue;
+      source_.choosePlace(*place);
+      const std::string path = patternPath(projector->name, chart).string();
+      try {
+        const auto photos = source_.exposureRange() ? exposeChart(projector->name, chart) : takenChart(projector->name);
+        return nearestStandard(estimateCameraResponse(photos));
+      } catch (const EstimateError& error) {
+        throw ProcedureError("gamma: " + path + ": " + error.what());
+      }
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::vector<ExposedPhoto> exposeChart(const std::string& projector, const ProjectedPattern& chart) {
+    const auto [shortest, longest] = *source_.exposureRange();
+    const auto [width, height] = calibration_.camera->size;
+    std::vector<ExposedPhoto> photos;
+    for (int stop = kFirstChartStop; stop <= kLastChartStop; ++stop) {
+      const double seconds = source_.usualExposure() * std::exp2(stop);
+      if (seconds < shortest || seconds > longest) continue;
+      auto shot = source_.exposed(projector, chart, seconds, {0, 0, width, height});
+      photos.push_back({shot.seconds.value_or(seconds), std::move(shot.photo)});
+      progress_.advance(stop - kFirstChartStop + 1, kLastChartStop - kFirstChartStop + 1, projector + " chart");
+    }
+    return photos;
+  }
+
+  [[nodiscard]] std::vector<ExposedPhoto> takenChart(const std::string& projector) {
+    std::vector<ExposedPhoto> photos;
+    for (auto& shot : source_.exposures(projector, responseChart({64, 64}).name)) {
+      if (!shot.seconds) {
+        throw CaptureError(shot.name + ": its exposure is not told: add it to the name, as in response-chart@1_60.jpg");
+      }
+      photos.push_back({*shot.seconds, std::move(shot.photo)});
+    }
+    return photos;
+  }
+
+  [[nodiscard]] MeasuredResponse measureOne(std::size_t index, const CameraResponse& camera) {
+    const ProjectorCalibration& projector = *wanted_[index];
+    const auto place = bestPlace(projector, levelPattern(projector.resolution, 0, 255).name);
+    if (!place) throw EstimateError(missing(projector));
+    source_.choosePlace(*place);
+    const auto patch =
+        FramePatch::of(ProjectorMapping(projector), viewFromPlace(calibration_, *place), *calibration_.camera);
+    if (!patch) throw EstimateError("the middle of its picture is not wholly seen by the camera");
+    PatchPhotographer photographer(source_, projector.name, *patch, calibration_.camera->size, camera);
+    const ProjectorResponse response = projectorResponse(photographAll(index, photographer));
+    double squares = camera.error * camera.error;
+    for (const double error : response.error) squares += error * error / 3;
+    return {response.curve, std::sqrt(squares), response.leak};
+  }
+
+  [[nodiscard]] static std::string missing(const ProjectorCalibration& projector) {
+    const auto level = levelPattern(projector.resolution, 0, 255);
+    return "gamma: camera, but there is no photograph " + patternPath(projector.name, level).string() +
+           " (.png or .jpg); pixelflex calibrate WALL --patterns DIR tells what to photograph";
+  }
+
+  [[nodiscard]] ResponseSeries photographAll(std::size_t index, PatchPhotographer& photographer) {
+    const ProjectorCalibration& projector = *wanted_[index];
+    ResponseSeries series;
+    auto levels = responseLevels();
+    std::ranges::reverse(levels);
+    const int total = static_cast<int>(wanted_.size() * (3 * levels.size() + 1));
+    int done = static_cast<int>(index * (3 * levels.size() + 1));
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      photographer.beginBright();
+      for (const int code : levels) {
+        const auto pattern = levelPattern(projector.resolution, static_cast<int>(channel), code);
+        series.levels.at(channel).push_back({code, photographer.light(pattern)});
+        progress_.advance(++done, total, projector.name + " " + pattern.name);
+      }
+      std::ranges::reverse(series.levels.at(channel));
+    }
+    series.black = photographer.light(responseBlackPattern(projector.resolution));
+    progress_.advance(++done, total, projector.name + " black");
+    if (source_.hasExposures(projector.name, ambientName())) series.ambient = photographer.lightOf(ambientName());
+    return series;
+  }
+
+  const Wall& wall_;
+  const Calibration& calibration_;
+  Photographs& source_;
+  Progress& progress_;
+  std::vector<const ProjectorCalibration*> wanted_;
+};
+
+}  // namespace
+
+ResponseResult measureResponses(const Wall& wall, const Calibration& calibration, const std::set<std::string>& only,
+                                Photographs& source, Progress& progress, const ResponseFailure& fail) {
+  return ResponseMeter(wall, calibration, only, source, progress).measure(fail);
+}
+
+CameraResponse cameraResponse(const CameraSource& camera, const std::optional<std::string>& file) {
+  if (camera.transfer) return *camera.transfer == Transfer::kLinear ? linearCamera() : srgbCamera();
+  if (!file) return linearCamera();
+  const Readings readings = readReadings(readStoreFile(*file), *file);
+  if (!readings.problems.empty()) throw StoreError(readings.problems);
+  return {.light = readings.light};
+}
+
+double typicalError(const std::map<std::string, MeasuredResponse>& responses) {
+  double squares = 0;
+  for (const auto& [name, response] : responses) squares += response.error * response.error;
+  return responses.empty() ? 0 : std::sqrt(squares / static_cast<double>(responses.size()));
+}
+
+std::string formatCameraResponse(const CameraResponse& camera) {
+  return formatReadings({camera.light});
+}
+
+}  // namespace pixelflex::calib
