@@ -16,9 +16,12 @@ viewer::SessionOptions optionsFor(const std::string& address) {
 
 }  // namespace
 
+DesktopMirror::DesktopMirror(const Make& make) : belt_([this] { wake(); }), session_(make(belt_, [this] { wake(); })) {}
+
 DesktopMirror::DesktopMirror(viewer::SessionOptions options)
-    : belt_([this] { wake(); }),
-      session_(std::make_unique<viewer::Session>(std::move(options), belt_, [this] { wake(); })) {}
+    : DesktopMirror([&options](viewer::FrameBelt& belt, std::function<void()> wake) {
+        return std::make_unique<viewer::Session>(std::move(options), belt, std::move(wake));
+      }) {}
 
 DesktopMirror::DesktopMirror(const std::string& address) : DesktopMirror(optionsFor(address)) {}
 

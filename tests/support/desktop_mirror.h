@@ -2,6 +2,7 @@
 
 #include <condition_variable>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -12,15 +13,17 @@
 
 namespace pixelflex::testing {
 
-/// A session whose batches are put together to a desktop in memory, as a renderer would: what the tests compare with
+/// A source whose batches are put together to a desktop in memory, as a renderer would: what the tests compare with
 /// the X server's own screen.
 class DesktopMirror {
  public:
+  using Make = std::function<std::unique_ptr<viewer::DesktopSource>(viewer::FrameBelt&, std::function<void()> wake)>;
+  explicit DesktopMirror(const Make& make);
   explicit DesktopMirror(viewer::SessionOptions options);
   /// Connects to an address as users write it.
   explicit DesktopMirror(const std::string& address);
 
-  [[nodiscard]] viewer::Session& session() { return *session_; }
+  [[nodiscard]] viewer::DesktopSource& session() { return *session_; }
 
   /// Takes whatever has arrived, until `done` or `timeout`; says whether `done` came true. `done` is asked whenever
   /// something arrived and at least every 50 ms.
@@ -63,7 +66,7 @@ class DesktopMirror {
   std::uint64_t updates_ = 0;
   std::uint64_t batches_ = 0;
   std::uint64_t bytes_ = 0;
-  std::unique_ptr<viewer::Session> session_;
+  std::unique_ptr<viewer::DesktopSource> session_;
 };
 
 }  // namespace pixelflex::testing

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "viewer/programs/view_security.h"
+#include "viewer/vnc/session.h"
 
 namespace pixelflex::viewer {
 namespace {
@@ -29,13 +30,13 @@ WallView::WallView(const ViewOptions& options, const WallPlan& wall, devices::Gl
       renderer_(context, {.bitsPerColour = options.depth}),
       picture_(renderer_, options.whenLost),
       belt_(wake),
-      session_(sessionOptions(options), belt_, wake) {
+      source_(std::make_unique<Session>(sessionOptions(options), belt_, wake)) {
   // What a screenshot shows is the desktop, as a screenshot taken on the server does.
   if (options.screenshot) renderer_.showCursor(false);
 }
 
 WallView::Step WallView::step() {
-  for (const auto& event : session_.takeEvents()) handle(event);
+  for (const auto& event : source_->takeEvents()) handle(event);
   while (Batch* batch = belt_.take()) {
     if (batch->desktop != desktop_) adopt(batch->desktop);
     renderer_.upload(*batch);
@@ -103,7 +104,7 @@ void WallView::adopt(devices::Size desktop) {
 
 void WallView::point(glm::ivec2 pointInDesktop, std::uint8_t buttons) {
   picture_.moveCursor(pointInDesktop);
-  session_.sendPointer(pointInDesktop.x, pointInDesktop.y, buttons);
+  source_->sendPointer(pointInDesktop.x, pointInDesktop.y, buttons);
 }
 
 }  // namespace pixelflex::viewer

@@ -15,7 +15,7 @@
 #include "viewer/programs/view_options.h"
 #include "viewer/renderer/wall_renderer.h"
 #include "viewer/tiles/frame_belt.h"
-#include "viewer/vnc/session.h"
+#include "viewer/vnc/desktop_source.h"
 
 namespace pixelflex::viewer {
 
@@ -31,7 +31,7 @@ class PasswordNeeded : public ViewError {
   using ViewError::ViewError;
 };
 
-/// A server's desktop on a wall: session, belt and renderer held together on the render thread, which calls step()
+/// A server's desktop on a wall: source, belt and renderer held together on the render thread, which calls step()
 /// whenever it is woken.
 class WallView {
  public:
@@ -63,7 +63,7 @@ class WallView {
 
   /// Moves the pointer there, locally at once, and tells the server.
   void point(glm::ivec2 pointInDesktop, std::uint8_t buttons);
-  void key(std::uint32_t keysym, bool down) { session_.sendKey(keysym, down); }
+  void key(std::uint32_t keysym, bool down) { source_->sendKey(keysym, down); }
   void markAll() { renderer_.markAll(); }
 
  private:
@@ -77,7 +77,7 @@ class WallView {
   WallRenderer renderer_;
   LostPicture picture_;
   FrameBelt belt_;
-  Session session_;
+  std::unique_ptr<DesktopSource> source_;
   std::optional<PointerMap> pointerMap_;
   devices::Size desktop_;
   std::string desktopName_;

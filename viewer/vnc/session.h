@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "viewer/tiles/frame_belt.h"
+#include "viewer/vnc/desktop_source.h"
 #include "viewer/vnc/server_address.h"
-#include "viewer/vnc/session_event.h"
 
 namespace pixelflex::viewer {
 
@@ -49,34 +49,21 @@ struct SessionOptions {
   Retry retry = Retry::kNever;
 };
 
-/// A connection to a VNC server, on a thread of its own. That thread connects, decodes into one linear frame buffer and
-/// puts each whole server update on the belt; it is the only one that reads or writes the socket. Every member may be
-/// called from any thread. Nothing throws because of the server: whatever ends the connection arrives as a Lost event,
-/// and Connected again when the server is back, or as a Closed event. Input while there is no connection is dropped,
-/// and what was held down when it broke is let go on the next one. The destructor stops and waits for the thread, a
-/// fraction of a second at most, whatever the server does.
-class Session {
+/// A connection to a VNC server. Its thread connects, decodes into one linear frame buffer and puts each whole server
+/// update on the belt; it is the only one that reads or writes the socket.
+class Session : public DesktopSource {
  public:
   /// Starts at once. `belt` must outlive the session. `wake` is called from the session's thread after each new event
   /// (the belt has its own) and must not call the session's destructor.
   Session(SessionOptions options, FrameBelt& belt, std::function<void()> wake);
-  ~Session();
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
+  ~Session() override;
 
-  /// The events since the last call, oldest first.
-  [[nodiscard]] std::vector<SessionEvent> takeEvents();
-
-  /// Desktop pixels; bit 0 of `buttons` is the left button, bits 3 and 4 the wheel. A motion that has not been sent yet
-  /// is replaced by the next one with the same buttons. Outside the desktop the position is clamped.
-  void sendPointer(int x, int y, std::uint8_t buttons);
-  /// An X11 keysym.
-  void sendKey(std::uint32_t keysym, bool down);
-  /// UTF-8; what Latin-1 cannot hold becomes a question mark. Texts beyond 256 KiB are cut there.
-  void sendClipboard(std::string text);
-
-  /// Ends the connection without a Closed event and returns at once. Input is ignored from here on.
-  void stop();
+  [[nodiscard]] std::vector<SessionEvent> takeEvents() override;
+  void sendPointer(int x, int y, std::uint8_t buttons) override;
+  void sendKey(std::uint32_t keysym, bool down) override;
+  /// What Latin-1 cannot hold becomes a question mark. Texts beyond 256 KiB are cut there.
+  void sendClipboard(std::string text) override;
+  void stop() override;
 
  private:
   class Worker;
