@@ -1,16 +1,17 @@
 // A screen that shows desktop pixels one to one: no filter, no arithmetic on colours but for a frame of
 // other codes than the desktop's.
 uniform sampler2DArray desktop;
-uniform ivec2 desktopSize;
 uniform ivec3 tiling;   // tiles in a row, stride, apron
 uniform ivec2 exactAt;  // the desktop pixel shown by the screen's top-left pixel
+uniform ivec2 exactFrom;  // the part of the desktop that is shown, half-open
+uniform ivec2 exactTo;
 uniform float brightness;  // 1: as it is
 
 layout(location = 0) out vec4 device;
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy) + exactAt;
-  if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, desktopSize))) {
+  if (any(lessThan(pixel, exactFrom)) || any(greaterThanEqual(pixel, exactTo))) {
     device = vec4(0.0, 0.0, 0.0, 1.0);
     return;
   }

@@ -12,6 +12,8 @@ pixelflex_test(renderer_light_test LABEL gl SOURCES gl/light_test.cpp gl/dither_
   LINK pixelflex_renderer pixelflex_reference)
 pixelflex_test(plan_light_test LABEL unit SOURCES unit/plan_light_test.cpp support/temporary_folder.cpp
   LINK pixelflex_plan pixelflex_image)
+pixelflex_test(plan_fit_test LABEL gl SOURCES gl/plan_fit_test.cpp unit/plan_fit_test.cpp gl/bent_frames.cpp gl/bent_frames.h
+  LINK pixelflex_plan pixelflex_reference)
 pixelflex_test(display_handle_test LABEL unit SOURCES unit/display_handle_test.cpp LINK pixelflex_display)
 pixelflex_test(display_image_near_test LABEL unit SOURCES unit/display_image_near_test.cpp LINK pixelflex_image)
 pixelflex_test(display_context_test LABEL gl SOURCES gl/context_test.cpp LINK pixelflex_display PkgConfig::EPOXY)

@@ -16,7 +16,7 @@ class PointerMap {
   PointerMap(const WallPlan& wall, devices::Size desktop);
 
   /// The desktop pixel under a point of a projector's frame (index as in WallPlan::projectors()), held inside the
-  /// desktop. None where the frame's ray misses the wall.
+  /// part of the desktop that is shown. None where the frame's ray misses the wall.
   [[nodiscard]] std::optional<glm::ivec2> fromProjector(std::size_t projector, glm::dvec2 pointInProjector) const;
   /// The same for a point of the wall.
   [[nodiscard]] glm::ivec2 fromWall(glm::dvec2 pointInWall) const;
@@ -30,7 +30,7 @@ class PointerMap {
   };
   std::vector<Screen> screens_;
   calib::Homography desktopFromWall_;
-  devices::Size desktop_;
+  Placement placement_;
 };
 
 }  // namespace pixelflex::viewer

@@ -7,6 +7,7 @@
 
 #include "calib/geometry/footprint.h"
 #include "calib/geometry/patch_mesh.h"
+#include "viewer/plan/scaled_screen.h"
 #include "viewer/tiles/tile_layout.h"
 
 namespace pixelflex::viewer {
@@ -24,16 +25,24 @@ Filter filterOf(calib::DesktopFilter filter) {
   return Filter::kCatmullRom;
 }
 
-std::vector<calib::DesktopPatch> patchesOf(const TileLayout& layout) {
+/// The shown part of the desktop, cut into tiles.
+struct ShownPatches {
   std::vector<calib::DesktopPatch> patches;
+  std::vector<int> layers;  // of each
+};
+
+ShownPatches patchesOf(const TileLayout& layout, const Box& shown) {
+  ShownPatches result;
   for (int layer = 0; layer < layout.count(); ++layer) {
-    const Box patch = layout.patch(layer);
-    patches.push_back({patch.left, patch.top, patch.right, patch.bottom});
+    const Box patch = intersect(layout.patch(layer), shown);
+    if (patch.empty()) continue;
+    result.patches.push_back({patch.left, patch.top, patch.right, patch.bottom});
+    result.layers.push_back(layer);
   }
-  return patches;
+  return result;
 }
 
-WarpMesh toWarpMesh(const calib::PatchMesh& mesh) {
+WarpMesh toWarpMesh(const calib::PatchMesh& mesh, const std::vector<int>& layers) {
   WarpMesh warp;
   for (const auto& vertex : mesh.vertices) {
     const double w = vertex.weight;
@@ -48,16 +57,27 @@ WarpMesh toWarpMesh(const calib::PatchMesh& mesh) {
       warp.indices.insert(warp.indices.end(), triangle.begin(), triangle.end());
     }
     const auto count = static_cast<std::uint32_t>(warp.indices.size()) - first;
-    warp.patches.push_back({static_cast<int>(patch.patch), first, count});
+    warp.patches.push_back({layers[patch.patch], first, count});
   }
   return warp;
+}
+
+/// The codes of a desktop that is scaled reach a flat screen as those of one that is not: without its response.
+void showFlat(OutputPlan& plan, const TileLayout& layout, const Placement& placement, glm::ivec2 screenAt) {
+  plan.exactShown = placement.shown;
+  if (const auto desktopAt = placement.oneToOneAt()) {
+    plan.exactAt = screenAt - *desktopAt;
+    return;
+  }
+  plan.inverseResponse = {};
+  plan.mesh = scaledScreen(layout, placement, screenAt, plan.resolution);
 }
 
 }  // namespace
 
 WallPlan::WallPlan(const std::filesystem::path& folder, calib::Wall wall, calib::Calibration calibration,
-                   const std::vector<std::string>& only)
-    : wall_(std::move(wall)), calibration_(std::move(calibration)) {
+                   const std::vector<std::string>& only, const FitOptions& fit)
+    : wall_(std::move(wall)), calibration_(std::move(calibration)), fit_(fit) {
   if (!calibration_.display || calibration_.projectors.empty()) {
     throw PlanError(folder.string() + ": the wall is not fully calibrated: run pixelflex calibrate " + folder.string());
   }
@@ -72,6 +92,21 @@ WallPlan::WallPlan(const std::filesystem::path& folder, calib::Wall wall, calib:
     projectors_.push_back(&projector);
     light_.push_back(readLight(folder, projector));
   }
+}
+
+Placement WallPlan::placementOf(devices::Size desktop) const {
+  return placeDesktop(display_.resolution, desktop, fit_);
+}
+
+calib::Display WallPlan::displayOf(devices::Size desktop) const {
+  const Placement placement = placementOf(desktop);
+  if (placement == Placement{boxOf(display_.resolution)}) return display_;
+  const glm::dvec2 corner(display_.left, display_.top);
+  const glm::dvec2 unit{(display_.right - display_.left) / display_.resolution.width,
+                        (display_.bottom - display_.top) / display_.resolution.height};
+  const glm::dvec2 low = corner + unit * placement.wallFromDesktop({0, 0});
+  const glm::dvec2 high = corner + unit * placement.wallFromDesktop({desktop.width, desktop.height});
+  return {low.x, low.y, high.x, high.y, desktop};
 }
 
 std::vector<OutputPlan> WallPlan::outputsFor(devices::Size desktop) const {
@@ -104,15 +139,17 @@ OutputPlan WallPlan::outputFor(std::size_t index, devices::Size desktop) const {
       .transfer = wall_.transfer == calib::Transfer::kSrgb ? DesktopTransfer::kSrgb : DesktopTransfer::kLinear,
       .filter = filterOf(wall_.desktop.filter),
       .filterDomain =
-          wall_.desktop.filterDomain == calib::FilterDomain::kLinear ? FilterDomain::kLinear : FilterDomain::kSrgb,
-      .exactAt = projector.flatAt};
-  if (projector.flatAt) return plan;
-  calib::Display display = display_;
-  display.resolution = desktop;
-  const calib::ProjectorMapping mapping(projector);
+          wall_.desktop.filterDomain == calib::FilterDomain::kLinear ? FilterDomain::kLinear : FilterDomain::kSrgb};
+  const Placement placement = placementOf(desktop);
   const TileLayout layout(desktop);
+  if (projector.flatAt) {
+    showFlat(plan, layout, placement, *projector.flatAt);
+    return plan;
+  }
+  const calib::ProjectorMapping mapping(projector);
   try {
-    plan.mesh = toWarpMesh(calib::buildPatchMesh(mapping, display, patchesOf(layout)));
+    const ShownPatches shown = patchesOf(layout, placement.shown);
+    plan.mesh = toWarpMesh(calib::buildPatchMesh(mapping, displayOf(desktop), shown.patches), shown.layers);
   } catch (const calib::GeometryError& error) {
     throw PlanError("projector " + projector.name + ": " + error.what() + "; calibrate it again");
   }

@@ -6,6 +6,7 @@
 
 #include "calib/store/calibration.h"
 #include "calib/store/wall.h"
+#include "viewer/plan/desktop_fit.h"
 #include "viewer/plan/projector_light.h"
 #include "viewer/renderer/output_plan.h"
 
@@ -17,7 +18,7 @@ class WallPlan {
   /// `only`: names of the projectors to show; empty means all that are calibrated. Reads masks, gains, black maps and
   /// responses from `folder`. Throws PlanError, StoreError, ImageError, ResponseError.
   WallPlan(const std::filesystem::path& folder, calib::Wall wall, calib::Calibration calibration,
-           const std::vector<std::string>& only);
+           const std::vector<std::string>& only, const FitOptions& fit = {});
 
   /// The desktop that the wall was calibrated for.
   [[nodiscard]] devices::Size desktop() const { return display_.resolution; }
@@ -27,8 +28,14 @@ class WallPlan {
   /// The display rectangle and the desktop that it was calibrated for.
   [[nodiscard]] const calib::Display& display() const { return display_; }
 
-  /// One plan for each of projectors(), for a desktop of this size: it fills the display rectangle whatever its size.
-  /// Flat screens show their part one to one. Uses two threads.
+  /// Where a desktop of this size is shown.
+  [[nodiscard]] Placement placementOf(devices::Size desktop) const;
+  /// The rectangle of the wall that a desktop of this size would take as a whole, larger than display() where only a
+  /// region is shown.
+  [[nodiscard]] calib::Display displayOf(devices::Size desktop) const;
+
+  /// One plan for each of projectors(), for a desktop of this size, placed within the display rectangle. Flat screens
+  /// show their part one to one unless it is scaled. Uses two threads.
   [[nodiscard]] std::vector<OutputPlan> outputsFor(devices::Size desktop) const;
 
  private:
@@ -37,6 +44,7 @@ class WallPlan {
   calib::Wall wall_;
   calib::Calibration calibration_;
   calib::Display display_;
+  FitOptions fit_;
   std::vector<const calib::ProjectorCalibration*> projectors_;
   std::vector<ProjectorLight> light_;  // one for each of projectors_
 };

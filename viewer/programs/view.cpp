@@ -26,9 +26,11 @@ const std::map<std::string, Retry> kRetries{
 const std::map<std::string, WhenLost> kWhenLost{
     {"dim", WhenLost::kDim}, {"mark", WhenLost::kMark}, {"keep", WhenLost::kKeep}};
 
+const std::map<std::string, Fit> kFits{{"letterbox", Fit::kLetterbox}, {"stretch", Fit::kStretch}};
+
 int view(const ViewOptions& options) {
   const WallPlan wall(options.wall, calib::loadWall(options.wall), calib::loadCalibration(options.wall),
-                      options.projectors);
+                      options.projectors, options.fit);
   return options.headless ? runHeadless(options, wall) : runWindows(options, wall);
 }
 
@@ -69,6 +71,13 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0, 3'600'000))
       ->capture_default_str();
   app.add_option("--projectors", options.projectors, "only these projectors")->delimiter(',');
+  app.add_option("--fit", options.fit.fit,
+                 "a desktop of another size than the wall's: letterbox keeps its aspect, stretch fills the wall; else "
+                 "letterbox")
+      ->transform(CLI::CheckedTransformer(pixelflex::viewer::kFits))
+      ->option_text("letterbox|stretch");
+  std::string region;
+  app.add_option("--region", region, "show only this part of the desktop: X,Y,WIDTHxHEIGHT, desktop pixels");
   app.add_flag("--view-only", options.viewOnly, "send neither pointer nor keys");
   app.add_option("--password-file", options.passwordFile,
                  "the first line is the password, or vncpasswd wrote it; mode 0600. Without it PIXELFLEX_VNC_PASSWORD "
@@ -100,6 +109,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     options.settle = std::chrono::milliseconds(settle);
+    if (!region.empty()) options.fit.region = pixelflex::viewer::parseRegion(region);
     options.server = pixelflex::viewer::parseServerAddress(server);
     options.security.require = pixelflex::viewer::parseSecurityLevel(require);
     pixelflex::viewer::checkFingerprint(options.security.fingerprint);

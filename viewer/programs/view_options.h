@@ -5,12 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "viewer/plan/desktop_fit.h"
 #include "viewer/vnc/session.h"
 
 namespace pixelflex::viewer {
 
 /// What the wall shows of a server that is gone: its last picture in any case.
 enum class WhenLost { kDim, kMark, kKeep };
+
+/// "X,Y,WxH", desktop pixels. Throws std::invalid_argument.
+[[nodiscard]] Box parseRegion(const std::string& text);
 
 /// The command line of `pixelflex view`.
 struct ViewOptions {
@@ -20,6 +24,7 @@ struct ViewOptions {
   std::optional<std::string> screenshot;  // folder
   std::chrono::milliseconds settle{500};
   std::vector<std::string> projectors;  // empty: all
+  FitOptions fit;
   bool viewOnly = false;
   std::optional<std::string> passwordFile;
   std::optional<std::string> password;  // out of that file, the environment or a prompt

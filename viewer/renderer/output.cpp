@@ -53,6 +53,7 @@ Output::Output(const OutputPlan& plan, const TileLayout& layout, FrameFormat for
   if (plan.exactAt) {
     variant_.exact = true;
     exactAt_ = *plan.exactAt;
+    exactShown_ = intersect(plan.exactShown.value_or(boxOf(desktop_)), boxOf(desktop_));
     vertexArray_ = devices::GlVertexArray::create();
   } else {
     variant_.dither = plan.dither;
@@ -100,7 +101,7 @@ void Output::makeMesh() {
 
 Box Output::touchedBy(const Box& desktopBox) const {
   if (!variant_.exact) return footprint_.touchedBy(desktopBox);
-  const auto inside = intersect(desktopBox, boxOf(desktop_));
+  const auto inside = intersect(desktopBox, exactShown_);
   const Box moved{inside.left - exactAt_.x, inside.top - exactAt_.y, inside.right - exactAt_.x,
                   inside.bottom - exactAt_.y};
   return inside.empty() ? Box{} : intersect(moved, boxOf(resolution_));
@@ -175,6 +176,8 @@ void Output::setUniforms(const devices::GlProgram& program, const DesktopTexture
   program.set("desktopSize", glm::ivec2(desktop_.width, desktop_.height));
   program.set("tiling", glm::ivec3(desktop.layout().columns(), kTileStride, kTileApron));
   program.set("exactAt", exactAt_);
+  program.set("exactFrom", glm::ivec2(exactShown_.left, exactShown_.top));
+  program.set("exactTo", glm::ivec2(exactShown_.right, exactShown_.bottom));
   // The exact shader knows codes only, and those of most desktops are close to this power of light.
   program.set("brightness", variant_.exact ? std::pow(brightness_, 1.0F / 2.2F) : brightness_);
 }

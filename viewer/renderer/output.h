@@ -63,6 +63,7 @@ class Output {
   FrameFormat format_ = FrameFormat::kRgba8;
   WarpVariant variant_;
   glm::ivec2 exactAt_{0, 0};
+  Box exactShown_;
   float brightness_ = 1;
   OutputLight light_;
   MeshFootprint footprint_;

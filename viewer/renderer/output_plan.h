@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "devices/image/image.h"
+#include "viewer/tiles/box.h"
 
 namespace pixelflex::viewer {
 
@@ -62,6 +63,8 @@ struct OutputPlan {
   bool dither = true;
   /// Set: this output shows desktop pixels one to one from here, bit for bit; mesh, light and response are not used.
   std::optional<glm::ivec2> exactAt;
+  /// With it: only these desktop pixels; none: all.
+  std::optional<Box> exactShown;
 };
 
 }  // namespace pixelflex::viewer
