@@ -4,6 +4,11 @@ pixelflex_test(calibrate_cli_test LABEL e2e TIMEOUT 240
   LINK pixelflex_test_support pixelflex_simulate pixelflex_store)
 add_dependencies(calibrate_cli_test pixelflex-new pixelflex-calibrate)
 
+pixelflex_test(calibrate_response_test LABEL e2e TIMEOUT 300
+  SOURCES e2e/calibrate_response_test.cpp
+  LINK pixelflex_test_support pixelflex_simulate pixelflex_patterns pixelflex_store)
+add_dependencies(calibrate_response_test pixelflex-new pixelflex-calibrate)
+
 pixelflex_test(calibrate_bad_photos_test LABEL e2e TIMEOUT 240
   SOURCES e2e/calibrate_bad_photos_test.cpp
   LINK pixelflex_test_support pixelflex_simulate pixelflex_store)

@@ -146,8 +146,9 @@ class LightMatcher {
   void makeRoomForBlack(const std::vector<double>& leak, double perDegree) {
     for (std::size_t i = 0; i < leak.size(); ++i) {
       if (leak[i] >= 0) continue;
-      throw ProcedureError("black: even needs gamma readings of every projector, which tell how much it leaks; " +
-                           calibration_.projectors[i].name + " has none");
+      throw ProcedureError(
+          "black: even needs gamma of every projector, readings or camera, which tells how much it leaks; " +
+          calibration_.projectors[i].name + " has none");
     }
     const LuminanceTarget first = luminanceTarget(maps_, wall_.blend.uniformity.value_or(0), perDegree);
     // The lift is added after the colours are matched: it is a part of the whole white.

@@ -31,17 +31,38 @@ PatchPhotographer::PatchPhotographer(Photographs& source, std::string projector,
     : source_(source), projector_(std::move(projector)), patch_(patch), picture_(picture), camera_(camera) {}
 
 PatchLight PatchPhotographer::light(const ProjectedPattern& pattern) {
-  const auto range = source_.exposureRange();
-  return range ? exposeAndSee(pattern, *range) : lightOf(pattern.name);
+  return patchOf(photosOf(pattern, patch_.region()));
+}
+
+PatchPhotographer::Seen PatchPhotographer::see(const ProjectedPattern& pattern, const PictureRegion& region) {
+  const PictureRegion& own = patch_.region();
+  const Photos photos = photosOf(pattern, {std::min(own.left, region.left), std::min(own.top, region.top),
+                                           std::max(own.right, region.right), std::max(own.bottom, region.bottom)});
+  return {patchOf(photos), mergeExposures(photos, camera_)};
 }
 
 PatchLight PatchPhotographer::lightOf(const std::string& name) {
-  std::vector<ExposedPhoto> photos;
-  for (const auto& shot : source_.exposures(projector_, name)) {
+  return patchOf(taken(name));
+}
+
+PatchLight PatchPhotographer::patchOf(const Photos& photos) const {
+  Photos patches;
+  for (const auto& one : photos) patches.push_back({one.exposure, patch_.cut(one.photo)});
+  return patchLight(patches, camera_);
+}
+
+PatchPhotographer::Photos PatchPhotographer::photosOf(const ProjectedPattern& pattern, const PictureRegion& region) {
+  const auto range = source_.exposureRange();
+  return range ? expose(pattern, region, *range) : taken(pattern.name);
+}
+
+PatchPhotographer::Photos PatchPhotographer::taken(const std::string& name) {
+  Photos photos;
+  for (auto& shot : source_.exposures(projector_, name)) {
     checkTold(shot);
-    photos.push_back(cut(shot));
+    photos.push_back(checked(std::move(shot)));
   }
-  return patchLight(photos, camera_);
+  return photos;
 }
 
 /// Exposures without times can only be one and the same.
@@ -57,14 +78,17 @@ void PatchPhotographer::checkTold(const Photographs::Exposed& shot) {
                      " is: add it to the name, as in red-128@1_60.jpg");
 }
 
-PatchLight PatchPhotographer::exposeAndSee(const ProjectedPattern& pattern, devices::ExposureRange range) {
-  std::vector<ExposedPhoto> photos;
+PatchPhotographer::Photos PatchPhotographer::expose(const ProjectedPattern& pattern, const PictureRegion& region,
+                                                    devices::ExposureRange range) {
+  Photos photos;
   double seconds = ladder(expected_ > 0 ? kAim / expected_ : source_.usualExposure(), range);
   for (int tries = 0; tries < kMostTries; ++tries) {
-    photos.push_back(cut(source_.exposed(projector_, pattern, seconds, patch_.region())));
-    const ExposedPhoto& last = photos.back();
+    photos.push_back(checked(source_.exposed(projector_, pattern, seconds, region)));
+    const ExposedPhoto last{photos.back().exposure, patch_.cut(photos.back().photo)};
     const bool clipped = clippedPart(last.photo) > kMostClipped;
-    const double part = brightest(patchLight({&last, 1}, camera_)) * last.exposure;
+    const double light = brightest(patchLight({&last, 1}, camera_));
+    const double part = light * last.exposure;
+    if (!clipped) expected_ = light;
     if (!clipped && part >= kDim) break;
     const double wanted = clipped ? seconds / 4 : seconds * std::min(kLargestStep, kAim / std::max(part, 1e-6));
     const double next = ladder(wanted, range);
@@ -72,9 +96,7 @@ PatchLight PatchPhotographer::exposeAndSee(const ProjectedPattern& pattern, devi
     if (clipped) photos.pop_back();
     seconds = next;
   }
-  const PatchLight patch = patchLight(photos, camera_);
-  expected_ = brightest(patch);
-  return patch;
+  return photos;
 }
 
 /// The usual exposure times a power of two, no longer than asked for: few different ones, so that errors of the
@@ -85,11 +107,11 @@ double PatchPhotographer::ladder(double seconds, devices::ExposureRange range) {
   return std::clamp(rung, range.shortest, range.longest);
 }
 
-ExposedPhoto PatchPhotographer::cut(const Photographs::Exposed& shot) {
+ExposedPhoto PatchPhotographer::checked(Photographs::Exposed shot) const {
   if (!(shot.photo.size() == picture_)) {
     throw CaptureError(shot.name + ": not of the size that the camera was calibrated at");
   }
-  return {shot.seconds.value_or(1), patch_.cut(shot.photo)};
+  return {shot.seconds.value_or(1), std::move(shot.photo)};
 }
 
 }  // namespace pixelflex::calib

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "calib/capture/photographs.h"
 #include "calib/estimate/camera_response.h"
@@ -20,15 +21,26 @@ class PatchPhotographer {
   /// Of one second, or of the one exposure that no photograph tells. Patterns come from bright to dark: each is exposed
   /// by what the one before it gave. Throws CaptureError naming the photograph.
   [[nodiscard]] PatchLight light(const ProjectedPattern& pattern);
+  /// The same, and the linear light of the whole picture; `region` of it is kept for solving again.
+  struct Seen {
+    PatchLight patch;
+    devices::ImageF picture;
+  };
+  [[nodiscard]] Seen see(const ProjectedPattern& pattern, const PictureRegion& region);
   /// The same of photographs that only a person can take; not of a camera that is told its exposures.
   [[nodiscard]] PatchLight lightOf(const std::string& name);
   /// The next pattern may be brighter.
   void beginBright() { expected_ = 0; }
 
  private:
-  [[nodiscard]] PatchLight exposeAndSee(const ProjectedPattern& pattern, devices::ExposureRange range);
+  using Photos = std::vector<ExposedPhoto>;  // whole pictures
+  [[nodiscard]] Photos photosOf(const ProjectedPattern& pattern, const PictureRegion& region);
+  [[nodiscard]] Photos expose(const ProjectedPattern& pattern, const PictureRegion& region,
+                              devices::ExposureRange range);
+  [[nodiscard]] Photos taken(const std::string& name);
+  [[nodiscard]] PatchLight patchOf(const Photos& photos) const;
   [[nodiscard]] double ladder(double seconds, devices::ExposureRange range);
-  [[nodiscard]] ExposedPhoto cut(const Photographs::Exposed& shot);
+  [[nodiscard]] ExposedPhoto checked(Photographs::Exposed shot) const;
   void checkTold(const Photographs::Exposed& shot);
 
   Photographs& source_;

@@ -9,6 +9,7 @@
 #include "calib/estimate/projector_response.h"
 #include "calib/patterns/response_pattern.h"
 #include "calib/procedure/camera_places.h"
+#include "calib/procedure/frame_border.h"
 #include "calib/procedure/frame_patch.h"
 #include "calib/procedure/patch_photographer.h"
 #include "calib/procedure/procedure_error.h"
@@ -38,12 +39,12 @@ class ResponseMeter {
     if (wanted_.empty()) return result;
     result.camera = measureCamera();
     const CameraResponse camera = result.camera ? *result.camera : cameraResponse(wall_.camera, std::nullopt);
-    for (std::size_t i = 0; i < wanted_.size(); ++i) {
-      const std::string& name = wanted_[i]->name;
+    for (const auto* projector : wanted_) {
+      const std::string& name = projector->name;
       try {
-        result.responses[name] = measureOne(i, camera);
+        result.responses[name] = measureOne(*projector, camera);
       } catch (const LevelError& error) {
-        const auto level = levelPattern(wanted_[i]->resolution, error.channel(), error.code());
+        const auto level = levelPattern(projector->resolution, error.channel(), error.code());
         fail(name, patternPath(name, level).string() + ": " + error.what());
       } catch (const EstimateError& error) {
         fail(name, error.what());
@@ -117,8 +118,7 @@ class ResponseMeter {
     return photos;
   }
 
-  [[nodiscard]] MeasuredResponse measureOne(std::size_t index, const CameraResponse& camera) {
-    const ProjectorCalibration& projector = *wanted_[index];
+  [[nodiscard]] MeasuredResponse measureOne(const ProjectorCalibration& projector, const CameraResponse& camera) {
     const auto place = bestPlace(projector, levelPattern(projector.resolution, 0, 255).name);
     if (!place) throw EstimateError(missing(projector));
     source_.choosePlace(*place);
@@ -126,10 +126,19 @@ class ResponseMeter {
         FramePatch::of(ProjectorMapping(projector), viewFromPlace(calibration_, *place), *calibration_.camera);
     if (!patch) throw EstimateError("the middle of its picture is not wholly seen by the camera");
     PatchPhotographer photographer(source_, projector.name, *patch, calibration_.camera->size, camera);
-    const ProjectorResponse response = projectorResponse(photographAll(index, photographer));
+    const Photographed seen = photographAll(projector, photographer, borderOf(projector, *place));
+    const ProjectorResponse response = projectorResponse(seen.series);
     double squares = camera.error * camera.error;
     for (const double error : response.error) squares += error * error / 3;
-    return {response.curve, std::sqrt(squares), response.leak};
+    return {response.curve, std::sqrt(squares), response.leak ? response.leak : seen.leak};
+  }
+
+  [[nodiscard]] FrameBorder borderOf(const ProjectorCalibration& projector, int place) const {
+    std::vector<ProjectorMapping> others;
+    for (const auto& other : calibration_.projectors) {
+      if (&other != &projector) others.emplace_back(other);
+    }
+    return {ProjectorMapping(projector), others, viewFromPlace(calibration_, place), *calibration_.camera};
   }
 
   [[nodiscard]] static std::string missing(const ProjectorCalibration& projector) {
@@ -138,26 +147,70 @@ class ResponseMeter {
            " (.png or .jpg); pixelflex calibrate WALL --patterns DIR tells what to photograph";
   }
 
-  [[nodiscard]] ResponseSeries photographAll(std::size_t index, PatchPhotographer& photographer) {
-    const ProjectorCalibration& projector = *wanted_[index];
+  struct Photographed {
     ResponseSeries series;
-    auto levels = responseLevels();
-    std::ranges::reverse(levels);
-    const int total = static_cast<int>(wanted_.size() * (3 * levels.size() + 1));
-    int done = static_cast<int>(index * (3 * levels.size() + 1));
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      photographer.beginBright();
-      for (const int code : levels) {
-        const auto pattern = levelPattern(projector.resolution, static_cast<int>(channel), code);
-        series.levels.at(channel).push_back({code, photographer.light(pattern)});
-        progress_.advance(++done, total, projector.name + " " + pattern.name);
-      }
-      std::ranges::reverse(series.levels.at(channel));
+    std::optional<double> leak;  // as the border of the frame tells it
+  };
+
+  [[nodiscard]] Photographed photographAll(const ProjectorCalibration& projector, PatchPhotographer& photographer,
+                                           const FrameBorder& border) {
+    Photographed all;
+    std::vector<devices::ImageF> full;
+    for (int channel = 0; channel < 3; ++channel) {
+      auto& levels = all.series.levels.at(static_cast<std::size_t>(channel));
+      full.push_back(photographChannel(projector, channel, photographer, border.region(), levels));
     }
-    series.black = photographer.light(responseBlackPattern(projector.resolution));
-    progress_.advance(++done, total, projector.name + " black");
-    if (source_.hasExposures(projector.name, ambientName())) series.ambient = photographer.lightOf(ambientName());
-    return series;
+    const auto black = photographer.see(responseBlackPattern(projector.resolution), border.region());
+    tell(projector.name + " black");
+    all.series.black = black.patch;
+    all.leak = border.leak(black.picture, whiteAbove(black.picture, full));
+    if (all.leak && !tellsLeak(all.series, *all.leak)) all.leak.reset();
+    if (source_.hasExposures(projector.name, ambientName())) all.series.ambient = photographer.lightOf(ambientName());
+    return all;
+  }
+
+  /// Whether black was exposed long enough to be told from nothing.
+  static bool tellsLeak(const ResponseSeries& series, double leak) {
+    constexpr double kLargestDeviation = 0.15;
+    constexpr double kFaint = 3e-5;  // of white: less than this matters to nobody
+    for (std::size_t c = 0; c < 3; ++c) {
+      double white = 0;
+      for (const auto& levels : series.levels) white += levels.back().patch.light.at(c) - series.black.light.at(c);
+      if (series.black.deviation.at(c) > (kLargestDeviation * leak + kFaint) * white) return false;
+    }
+    return true;
+  }
+
+  /// Its levels, and the whole picture of the full one.
+  [[nodiscard]] devices::ImageF photographChannel(const ProjectorCalibration& projector, int channel,
+                                                  PatchPhotographer& photographer, const PictureRegion& region,
+                                                  std::vector<LevelLight>& levels) {
+    photographer.beginBright();
+    auto full = photographer.see(levelPattern(projector.resolution, channel, 255), region);
+    levels.push_back({255, full.patch});
+    auto codes = responseLevels();
+    for (auto code = codes.rbegin() + 1; code != codes.rend(); ++code) {
+      const auto pattern = levelPattern(projector.resolution, channel, *code);
+      levels.push_back({*code, photographer.light(pattern)});
+      tell(projector.name + " " + pattern.name);
+    }
+    std::ranges::reverse(levels);
+    return std::move(full.picture);
+  }
+
+  void tell(const std::string& what) {
+    progress_.advance(++told_, static_cast<int>(wanted_.size() * (3 * (responseLevels().size() - 1) + 1)), what);
+  }
+
+  /// Full red, green and blue, each above black.
+  static devices::ImageF whiteAbove(const devices::ImageF& black, const std::vector<devices::ImageF>& full) {
+    devices::ImageF white(black.size(), black.channels());
+    for (const auto& field : full) {
+      for (std::size_t i = 0; i < white.samples().size(); ++i) {
+        white.samples()[i] += field.samples()[i] - black.samples()[i];
+      }
+    }
+    return white;
   }
 
   const Wall& wall_;
@@ -165,6 +218,7 @@ class ResponseMeter {
   Photographs& source_;
   Progress& progress_;
   std::vector<const ProjectorCalibration*> wanted_;
+  int told_ = 0;  // of its progress
 };
 
 }  // namespace
