@@ -52,7 +52,7 @@ Image8 develop(const ImageF& radiance, const RoomRaster& room, double ambient, d
         const float total =
             light[i] * room.reflectance.row(y)[i / 3] + static_cast<float>(ambient) * room.ambient.row(y)[i / 3];
         const float level = std::clamp(total * scale, 0.0F, 1.0F);
-        out[i] = curve[static_cast<std::size_t>(level * static_cast<float>(kCurveSteps) + 0.5F)];
+        out[i] = curve[static_cast<std::size_t>(std::floor(level * static_cast<float>(kCurveSteps) + 0.5F))];
       }
     }
   });

@@ -96,7 +96,9 @@ bool LightFigures::met() const {
 }
 
 std::string LightFigures::row(Figure figure) const {
-  const auto& [_, name, unit, target] = describe(figure);
+  const char* const name = describe(figure).text;
+  const Unit unit = describe(figure).unit;
+  const double target = describe(figure).target;
   const auto median = [&](Correction correction) {
     const Values& values = of(figure, correction);
     return values.empty() ? std::string("-") : text(unit, values[values.size() / 2].value);

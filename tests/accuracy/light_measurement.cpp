@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "devices/image/png_file.h"
@@ -49,6 +50,11 @@ Blend usualBlend() {
   return {.uniformity = 0.5, .evenBlack = true};
 }
 
+Display displayOf(const Calibration& calibration) {
+  if (!calibration.display) throw std::runtime_error("the calibration has no display");
+  return *calibration.display;
+}
+
 /// One rig, calibrated, and where its figures go.
 class LightBench {
  public:
@@ -59,7 +65,7 @@ class LightBench {
         room_(kind.make(seed)),
         slippedRoom_(slipped(room_.rig(), kSlip)),
         session_(room_, folder_.path(), flatBlend(kind)),
-        display_(session_.calibration().display.value()),
+        display_(displayOf(session_.calibration())),
         view_(room_, withoutRim(display_), kViewScale),
         slippedView_(slippedRoom_, withoutRim(display_), kViewScale) {}
 

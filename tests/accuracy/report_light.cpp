@@ -116,7 +116,7 @@ Image8 reportFrame(const ImageF& warped, const ReportLight& light) {
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
       for (int c = 0; c < 3; ++c) {
-        const double value = warped.at(x, y, c) * light.mask.at(x, y);  // of 255
+        const double value = double{warped.at(x, y, c)} * light.mask.at(x, y);  // of 255
         const auto step = static_cast<std::size_t>(std::clamp(std::lround(value), 0L, 255L));
         frame.at(x, y, c) = light.table.at(static_cast<std::size_t>(c)).at(step);
       }

@@ -19,13 +19,12 @@ using devices::ImageF;
 class Stand {
  public:
   Stand(const Rig& rig, const std::vector<viewer::OutputPlan>& plans, viewer::RendererOptions options)
-      : renderer_(context_, options) {
+      : renderer_(context_, options), count_(rig.projectors.size()) {
     renderer_.setPlans(plans);
     for (const auto& plan : plans) {
       const auto found = std::ranges::find(rig.projectors, plan.name, &SimulatedProjectorSpec::name);
       places_.push_back(static_cast<std::size_t>(found - rig.projectors.begin()));
     }
-    count_ = rig.projectors.size();
   }
 
   [[nodiscard]] viewer::WallRenderer& renderer() { return renderer_; }
@@ -43,7 +42,7 @@ class Stand {
   devices::HeadlessContext context_;
   viewer::WallRenderer renderer_;
   std::vector<std::size_t> places_;  // in the rig, of each output
-  std::size_t count_ = 0;
+  std::size_t count_;
 };
 
 Show showPlans(const Rig& rig, const std::vector<viewer::OutputPlan>& plans) {
