@@ -11,7 +11,17 @@ pixelflex_test(vnc_e2e_test LABEL e2e TIMEOUT 120
   SOURCES e2e/vnc_reconnect_test.cpp e2e/vnc_security_test.cpp e2e/vnc_xvnc_test.cpp
   LINK pixelflex_test_support)
 
+add_library(vnc_entry STATIC fuzz/vnc_entry.cpp)
+target_link_libraries(vnc_entry PRIVATE pixelflex_options PUBLIC pixelflex_vnc)
+
 pixelflex_test(vnc_test LABEL unit TIMEOUT 120
-  SOURCES unit/vnc_address_test.cpp unit/vnc_failure_test.cpp unit/vnc_hostile_cases_test.cpp
-    unit/vnc_hostile_test.cpp unit/vnc_pieces_test.cpp unit/vnc_reconnect_test.cpp unit/vnc_security_test.cpp unit/vnc_session_test.cpp
-  LINK pixelflex_test_support)
+  SOURCES unit/vnc_address_test.cpp unit/vnc_corpus_test.cpp unit/vnc_failure_test.cpp unit/vnc_hostile_cases_test.cpp
+    unit/vnc_hostile_test.cpp unit/vnc_jpeg_test.cpp unit/vnc_pieces_test.cpp unit/vnc_reconnect_test.cpp unit/vnc_security_test.cpp unit/vnc_session_test.cpp
+  LINK pixelflex_test_support vnc_entry JPEG::JPEG)
+
+# What a server may say, by clang++ (preset fuzz): ./vnc_fuzz CORPUS -max_total_time=60
+if(PIXELFLEX_FUZZ)
+  add_executable(vnc_fuzz fuzz/vnc_fuzz.cpp)
+  target_link_libraries(vnc_fuzz PRIVATE pixelflex_options vnc_entry -fsanitize=fuzzer)
+  add_dependencies(fuzzers vnc_fuzz)
+endif()

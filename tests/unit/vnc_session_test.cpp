@@ -210,7 +210,8 @@ TEST(Session, ReportsBellClipboardAndPointerPosition) {
 }
 
 // Everything the client sends after the handshake, up to `count` bytes.
-std::vector<std::uint8_t> inputReceived(std::size_t count, bool viewOnly, const std::function<void(Session&)>& act) {
+std::vector<std::uint8_t> inputReceived(std::size_t count, bool viewOnly,
+                                        const std::function<void(DesktopSource&)>& act) {
   std::vector<std::uint8_t> received;
   {
     const FakeVncServer server([&](FakeConnection& client) {
@@ -232,7 +233,7 @@ std::vector<std::uint8_t> inputReceived(std::size_t count, bool viewOnly, const 
 }
 
 TEST(Session, SendsInputInOrder) {
-  const std::vector<std::uint8_t> received = inputReceived(6 + 8 + 6 + 8 + 2, false, [](Session& session) {
+  const std::vector<std::uint8_t> received = inputReceived(6 + 8 + 6 + 8 + 2, false, [](DesktopSource& session) {
     session.sendPointer(258, 100, 1);
     session.sendKey(0xff0d, true);
     session.sendPointer(-5, 1000, 0);
@@ -245,7 +246,7 @@ TEST(Session, SendsInputInOrder) {
 }
 
 TEST(Session, SendsNothingWhenOnlyViewing) {
-  EXPECT_TRUE(inputReceived(1, true, [](Session& session) {
+  EXPECT_TRUE(inputReceived(1, true, [](DesktopSource& session) {
                 session.sendPointer(1, 1, 1);
                 session.sendKey('a', true);
                 session.sendClipboard("text");

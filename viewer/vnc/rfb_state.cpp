@@ -19,27 +19,47 @@
 
 #include "viewer/vnc/connector.h"
 #include "viewer/vnc/event_queue.h"
+#include "viewer/vnc/jpeg_rect.h"
 #include "viewer/vnc/rfb_messages.h"
 
-// Exported, but in no header; the first is of libvncclient's own JPEG decoder.
-extern "C" int tjDestroy(void* decoder);
+// Exported, but in no header.
 extern "C" void DefaultSupportedMessages(rfbClient* client);
 extern "C" void ClearClient2Server(rfbClient* client, int message);
 
 namespace pixelflex::viewer {
+namespace {
+
+// Its address names our data among a client's.
+char clientDataTag = 0;
+
+// Called through C, which no exception may cross. The bytes are ours to free.
+rfbBool onJpeg(rfbClient* client, const std::uint8_t* bytes, int count, int x, int y, int width, int height) noexcept {
+  const RfbState::Pixels jpeg(const_cast<std::uint8_t*>(bytes));
+  const auto& rfb = *static_cast<const RfbState*>(rfbClientGetClientData(client, &clientDataTag));
+  const std::size_t row = std::size_t{4} * static_cast<std::size_t>(rfb.pixelsSize.width);
+  std::uint8_t* out =
+      rfb.pixels.get() + static_cast<std::size_t>(y) * row + std::size_t{4} * static_cast<std::size_t>(x);
+  if (decodeJpegRect({jpeg.get(), static_cast<std::size_t>(count)}, {width, height}, out, row)) return TRUE;
+  rfbClientLog("a JPEG picture is damaged");
+  return FALSE;
+}
+
+}  // namespace
+
 RfbState::RfbState(int socket, const SessionOptions& sessionOptions)
     : options(sessionOptions), client(rfbGetClient(8, 3, 4)) {
   where = describeServer(options.server);
   if (client == nullptr) throw std::bad_alloc();
   client->sock = socket;
+  client->GotJpeg = onJpeg;
+  rfbClientSetClientData(client, &clientDataTag, this);
   // It asks for nothing by itself.
   DefaultSupportedMessages(client);
   ClearClient2Server(client, rfbFramebufferUpdateRequest);
 }
 
 RfbState::~RfbState() {
-  if (client->tjhnd != nullptr) tjDestroy(client->tjhnd);  // nobody else does
-  client->sock = RFB_INVALID_SOCKET;                       // neither is libvncclient's to close
+  client->sock = RFB_INVALID_SOCKET;  // neither is libvncclient's to close
   client->tlsSession = nullptr;
   rfbClientCleanup(client);
 }
