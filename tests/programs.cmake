@@ -24,3 +24,8 @@ pixelflex_test(view_cli_test LABEL e2e TIMEOUT 240
     e2e/view_depth_test.cpp e2e/view_lost_test.cpp e2e/view_quit_test.cpp e2e/view_security_test.cpp
   LINK pixelflex_test_support pixelflex_store)
 add_dependencies(view_cli_test pixelflex-new pixelflex-calibrate pixelflex-view)
+
+pixelflex_test(desktop_test LABEL e2e TIMEOUT 240
+  SOURCES e2e/desktop_test.cpp
+  LINK pixelflex_test_support)
+add_dependencies(desktop_test pixelflex-new pixelflex-desktop pixelflex-view)

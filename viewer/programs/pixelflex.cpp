@@ -29,6 +29,7 @@ constexpr std::array kCommands = {
     Command{"check", "lists everything wrong with the files of a wall"},
     Command{"calibrate", "measures where each projector's light falls and how bright it is"},
     Command{"view", "shows a VNC desktop on the wall"},
+    Command{"desktop", "runs an X desktop of the wall's own size on the wall"},
     Command{"simulate", "composes projector frames into what the audience of a simulated wall sees"},
     Command{"model", "shows a 3D model on the wall"},
     Command{"panel", "opens the control panel"},
