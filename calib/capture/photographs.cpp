@@ -57,6 +57,8 @@ The response of PROJECTORS
 - Say the exposure time in seconds after an @ in the name: red-128@1_60.jpg for a sixtieth, red-008@2.jpg, or
   red-008@0.5.png. A JPEG straight from the camera holds its exposure time, so red-128.jpg is enough there, and
   red-128@a.jpg, red-128@b.jpg for several of one pattern.
+- Cameras round the times that they show: 1/15, 1/30, 1/60 and 1/125 mostly mean 1_16, 1_32, 1_64 and 1_128, 15 and 30
+  seconds 16 and 32. Write what is meant: six per cent wrong would show.
 - response-chart is needed of one projector only, and not at all when wall.yaml says camera: {transfer: linear} or
   {transfer: srgb}. Without it the camera counts as linear, as raw photographs are.
 - A linear camera may photograph everything once, without any @; then the dark levels are less sure, and the result

@@ -1,6 +1,7 @@
 #include "devices/image/exposure_time.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
@@ -21,12 +22,17 @@ class Tiff {
   [[nodiscard]] std::optional<double> exposureTime() const {
     constexpr unsigned kExifDirectory = 0x8769;
     constexpr unsigned kExposureTime = 0x829A;
+    constexpr unsigned kShutterSpeed = 0x9201;  // in powers of two
+    constexpr double kMostRounding = 1.15;
     const auto first = number(4, 4);
     const auto pointer = first ? entry(*first, kExifDirectory) : std::nullopt;
     const auto directory = pointer ? number(*pointer, 4) : std::nullopt;
-    const auto value = directory ? entry(*directory, kExposureTime) : std::nullopt;
-    const auto place = value ? number(*value, 4) : std::nullopt;
-    return place ? rational(*place) : std::nullopt;
+    const auto nominal = directory ? rational(*directory, kExposureTime) : std::nullopt;
+    const auto speed = directory ? rational(*directory, kShutterSpeed) : std::nullopt;
+    if (!nominal || !(*nominal > 0) || !speed) return nominal && *nominal > 0 ? nominal : std::nullopt;
+    const double exact = std::exp2(-*speed);
+    const double ratio = exact / *nominal;
+    return ratio < kMostRounding && ratio > 1 / kMostRounding ? exact : nominal;
   }
 
  private:
@@ -51,12 +57,17 @@ class Tiff {
     return std::nullopt;
   }
 
-  [[nodiscard]] std::optional<double> rational(std::size_t at) const {
-    const auto above = number(at, 4);
-    const auto below = number(at + 4, 4);
-    if (!above || !below || *above == 0 || *below == 0) return std::nullopt;
-    return static_cast<double>(*above) / static_cast<double>(*below);
+  /// Signed as a shutter speed is: no exposure time needs the highest bit.
+  [[nodiscard]] std::optional<double> rational(std::size_t directory, unsigned tag) const {
+    const auto value = entry(directory, tag);
+    const auto place = value ? number(*value, 4) : std::nullopt;
+    const auto above = place ? number(*place, 4) : std::nullopt;
+    const auto below = place ? number(*place + 4, 4) : std::nullopt;
+    if (!above || !below || *below == 0) return std::nullopt;
+    return static_cast<double>(signedOf(*above)) / static_cast<double>(signedOf(*below));
   }
+
+  static std::int32_t signedOf(std::size_t bits) { return static_cast<std::int32_t>(static_cast<std::uint32_t>(bits)); }
 
   Bytes bytes_;
   bool bigEndian_;

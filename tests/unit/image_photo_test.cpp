@@ -168,8 +168,9 @@ TEST_F(ImagePhoto, OtherFilesAreRefused) {
   EXPECT_THAT([&] { (void)readPhoto(path()); }, ThrowsMessage<ImageError>(HasSubstr("neither a PNG nor a JPEG")));
 }
 
-/// A JPEG's Exif with the exposure `above` / `below`, in either byte order.
-std::string exifOf(std::uint32_t above, std::uint32_t below, bool bigEndian) {
+/// A JPEG's Exif with the exposure `above` / `below`, in either byte order; `speed`: its shutter speed, in hundredths
+/// of a power of two.
+std::string exifOf(std::uint32_t above, std::uint32_t below, bool bigEndian, std::int32_t speed = 1000'00) {
   std::string tiff;
   const auto put = [&](std::uint32_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) {
@@ -183,10 +184,12 @@ std::string exifOf(std::uint32_t above, std::uint32_t below, bool bigEndian) {
   put(0x0112, 2), put(3, 2), put(1, 4), put(1, 2), put(0, 2);  // orientation
   put(0x8769, 2), put(4, 2), put(1, 4), put(38, 4);            // where the next one is
   put(0, 4);
-  put(1, 2);  // Exif, at 38
-  put(0x829A, 2), put(5, 2), put(1, 4), put(56, 4);
+  put(2, 2);  // Exif, at 38
+  put(0x829A, 2), put(5, 2), put(1, 4), put(68, 4);
+  put(0x9201, 2), put(10, 2), put(1, 4), put(76, 4);
   put(0, 4);
-  put(above, 4), put(below, 4);  // at 56
+  put(above, 4), put(below, 4);                            // at 68
+  put(static_cast<std::uint32_t>(speed), 4), put(100, 4);  // at 76
   const std::string body = std::string("Exif\0\0", 6) + tiff;
   const auto length = static_cast<unsigned>(body.size() + 2);
   return std::string("\xFF\xE1") + static_cast<char>(length >> 8U) + static_cast<char>(length & 0xFFU) + body;
@@ -210,6 +213,15 @@ TEST_F(ExposureTimeTest, IsReadFromExif) {
     EXPECT_NEAR(timeOf(bytes).value_or(0), 1.0 / 60, 1e-12);
     EXPECT_EQ(readPhoto(folder_ / "photo.jpg").width(), 16);
   }
+}
+
+TEST_F(ExposureTimeTest, IsTheShutterSpeedWhereItWasRounded) {
+  const auto timeWith = [&](std::uint32_t above, std::uint32_t below, std::int32_t speed) {
+    return timeOf(std::string(jpeg_).insert(2, exifOf(above, below, true, speed))).value_or(0);
+  };
+  EXPECT_NEAR(timeWith(1, 60, 600), 1.0 / 64, 1e-12);
+  EXPECT_NEAR(timeWith(30, 1, -500), 32, 1e-9);
+  EXPECT_NEAR(timeWith(1, 60, 0), 1.0 / 60, 1e-12) << "a shutter speed that was not filled in";
 }
 
 TEST_F(ExposureTimeTest, IsAbsentWhereNothingIsSaid) {
