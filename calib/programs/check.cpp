@@ -9,8 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "calib/photometric/response_curve.h"
 #include "calib/simulate/rig.h"
+#include "calib/store/readings_file.h"
 #include "calib/store/store.h"
+#include "calib/store/yaml_reader.h"
 
 namespace {
 
@@ -18,11 +21,27 @@ using pixelflex::calib::Problem;
 
 constexpr int kWrongUsage = 2;
 
-/// The problems of the files that the store knows and of the simulated rig, if there is one.
+/// Readings that can be read may still be none of a projector: falling, clipped, below the meter's threshold.
+void checkResponses(const std::filesystem::path& folder, const pixelflex::calib::Wall& wall,
+                    std::vector<Problem>& problems) {
+  for (const auto& projector : wall.projectors) {
+    if (!projector.gamma || !std::filesystem::is_regular_file(folder / *projector.gamma)) continue;
+    const std::string file = (folder / *projector.gamma).string();
+    if (!pixelflex::calib::checkReadings(file).empty()) continue;  // listed already
+    try {
+      (void)pixelflex::calib::parseReadings(pixelflex::calib::readStoreFile(file), file);
+    } catch (const pixelflex::calib::ResponseError& error) {
+      problems.push_back({"", 0, 0, error.what()});  // names its file
+    }
+  }
+}
+
+/// The problems of the files that the store knows, of readings and of the simulated rig, if there is one.
 std::vector<Problem> problemsOf(const std::filesystem::path& folder) {
   auto problems = pixelflex::calib::checkWall(folder);
   try {
     const auto wall = pixelflex::calib::loadWall(folder);
+    checkResponses(folder, wall, problems);
     if (wall.rig && std::filesystem::exists(folder / *wall.rig)) (void)pixelflex::calib::loadRig(folder / *wall.rig);
   } catch (const pixelflex::calib::StoreError& error) {
     // wall.yaml's own problems are listed already.

@@ -125,6 +125,19 @@ TEST_F(CliNewCheck, HelpAndVersion) {
   }
 }
 
+TEST_F(CliNewCheck, CheckRefusesReadingsThatAreNoProjectors) {
+  ASSERT_EQ(pixelflex({"new", wall(), "--rig", PIXELFLEX_SOURCE_DIR "/config/rigs/mini-2.yaml"}).status, 0);
+  std::string clipped = "value,red,green,blue\n";
+  for (int code = 0; code < 256; ++code) {
+    const std::string light = std::to_string(std::min(code, 100));
+    clipped += std::to_string(code) + "," + light + "," + light + "," + light + "\n";
+  }
+  std::ofstream(wall() + "/readings/p1.csv") << clipped;
+  const Output output = pixelflex({"check", wall()});
+  EXPECT_EQ(output.status, 1);
+  EXPECT_THAT(output.text, HasSubstr("readings/p1.csv: the red readings are clipped from value 100 on"));
+}
+
 TEST_F(CliNewCheck, CheckListsAllProblemsOfAllFiles) {
   ASSERT_EQ(pixelflex({"new", wall(), "--flat", "2x1:1024x768"}).status, 0);
   calib::Wall changed = calib::loadWall(wall());
