@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "calib/patterns/colour_fields.h"
 #include "calib/procedure/camera_places.h"
@@ -70,8 +71,71 @@ class WhitePhotographer {
     const double rows = double(nodesAcross_) * projector.resolution.height / projector.resolution.width;
     const devices::Size lattice{nodesAcross_, std::max(2, static_cast<int>(std::lround(rows)))};
     const CameraMapping camera(*calibration_.camera);
-    return {measureLight(black, white, mappings_[i], view, camera, lattice, camera_),
-            primariesOf(i, black, white, view)};
+    const auto lightOf = [&](const devices::Image8& dark, const devices::Image8& bright) {
+      return measureLight(dark, bright, mappings_[i], view, camera, lattice, camera_);
+    };
+    LightField field = lightOf(black, white);
+    if (const auto longer = longerExposed(projector.name, patterns, brightest(field.light))) {
+      const devices::Image8 dark(white.size(), 3);
+      const double shorter = ratioOf(lightOf(dark, white).light, lightOf(dark, longer->white).light);
+      field = lightOf(longer->black, longer->white);
+      for (float& light : field.light.samples()) light *= static_cast<float>(shorter);
+    }
+    return {std::move(field), primariesOf(i, black, white, view)};
+  }
+
+  struct BlackAndWhite {
+    devices::Image8 black, white;
+  };
+
+  /// A projector much dimmer than its neighbours drowns in whole codes: its light from a longer exposure, where that
+  /// can be had. `brightest`: of white at the usual exposure, full scale 255.
+  [[nodiscard]] std::optional<BlackAndWhite> longerExposed(const std::string& name,
+                                                           const std::vector<ProjectedPattern>& patterns,
+                                                           double brightest) {
+    constexpr double kAim = 190;
+    if (!(brightest > 0) || brightest * 2 > kAim) return std::nullopt;
+    const auto range = source_.exposureRange();
+    if (!range) return longerTaken(name, patterns);
+    const double usual = source_.usualExposure();
+    const double seconds = std::min(range->longest, usual * std::exp2(std::floor(std::log2(kAim / brightest))));
+    if (seconds < 1.5 * usual) return std::nullopt;
+    const PictureRegion whole{0, 0, calibration_.camera->size.width, calibration_.camera->size.height};
+    return BlackAndWhite{source_.exposed(name, patterns[0], seconds, whole).photo,
+                         source_.exposed(name, patterns[1], seconds, whole).photo};
+  }
+
+  /// The longest exposure of which there are both.
+  [[nodiscard]] std::optional<BlackAndWhite> longerTaken(const std::string& name,
+                                                         const std::vector<ProjectedPattern>& patterns) {
+    if (!source_.hasExposures(name, patterns[0].name) || !source_.hasExposures(name, patterns[1].name)) return {};
+    std::optional<BlackAndWhite> longest;
+    double seconds = 0;
+    const auto blacks = source_.exposures(name, patterns[0].name);
+    for (const auto& white : source_.exposures(name, patterns[1].name)) {
+      const auto black = std::ranges::find(blacks, white.seconds, &Photographs::Exposed::seconds);
+      if (!white.seconds || *white.seconds <= seconds || black == blacks.end()) continue;
+      requireSize(white.photo, name, patterns[1]);
+      requireSize(black->photo, name, patterns[0]);
+      seconds = *white.seconds;
+      longest = {black->photo, white.photo};
+    }
+    return longest;
+  }
+
+  static double brightest(const ImageF& light) {
+    return light.samples().empty() ? 0 : double(std::ranges::max(light.samples()));
+  }
+
+  /// How much less light a first photograph took in than a second, of the same.
+  static double ratioOf(const ImageF& first, const ImageF& second) {
+    double less = 0, more = 0;
+    for (std::size_t i = 0; i < first.samples().size(); ++i) {
+      if (first.samples()[i] <= 0 || second.samples()[i] <= 0) continue;
+      less += first.samples()[i];
+      more += second.samples()[i];
+    }
+    return more > 0 ? less / more : 1;
   }
 
   /// Sums over a coarse lattice of what the camera sees of all fields.

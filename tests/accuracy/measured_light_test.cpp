@@ -55,10 +55,10 @@ TEST(MeasuredLight, OfThreeProjectors) {
 }
 
 TEST(MeasuredLight, OfAnInsetAlone) {
-  // Two frames about the same middle leave the camera's loss nearly open.
+  // Two frames about the same middle leave the camera's loss nearly open, and the wide one is nine times dimmer.
   const double error = errorOfMeasuredWhite(insetRig(1));
   std::printf("measured white against truth: %.2f %% rms\n", 100 * error);
-  EXPECT_LT(error, 0.02);
+  EXPECT_LT(error, 0.006);
 }
 
 }  // namespace

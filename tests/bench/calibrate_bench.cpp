@@ -71,6 +71,8 @@ void become(std::vector<std::string> arguments, bool show) {
   throw std::runtime_error("cannot start " + arguments.front());
 }
 
+constexpr std::size_t kColours = 3;  // full fields of red, green and blue
+
 struct Settings {
   int repeat = 1;
   bool show = false;
@@ -82,7 +84,7 @@ class Walls {
   Walls(const Rig& rig, const Settings& settings) : rig_(rig), settings_(settings) {
     apart([&] {
       SimulatedWall room(rig_);
-      (void)calibrateRig(room, wall());
+      (void)calibrateRig(room, wall(), Method::kBlobs, {.uniformity = 0.5, .evenBlack = true});
     });
     fs::copy(wall() / "captures", photographs(), fs::copy_options::recursive);
   }
@@ -104,8 +106,9 @@ class Walls {
         "\"camera\": [{}, {}], \"seconds\": {:.3f}, \"cpu_seconds\": {:.3f}, \"peak_mb\": {:.0f}, \"runs\": {}, "
         "\"load\": {:.1f}}}\n",
         name, rig_.projectors.size(), rig_.projectors.front().resolution.width,
-        rig_.projectors.front().resolution.height, rig_.projectors.size() * kPatternCount, rig_.camera.size.width,
-        rig_.camera.size.height, cost.seconds, cost.cpuSeconds, cost.peakMegabytes, settings_.repeat, load);
+        rig_.projectors.front().resolution.height, rig_.projectors.size() * (kPatternCount + kColours),
+        rig_.camera.size.width, rig_.camera.size.height, cost.seconds, cost.cpuSeconds, cost.peakMegabytes,
+        settings_.repeat, load);
     return cost;
   }
 
@@ -128,10 +131,11 @@ Layout layoutOf(int projectors) {
   return {projectors / rows, rows};
 }
 
-/// Everything, and one projector measured again, on the report's wall (or a tiny one).
+/// Everything, light alone, and one projector measured again, on the report's wall (or a tiny one).
 void runWhole(const Settings& settings, bool tiny) {
   Walls wall(tiny ? miniRig(2) : reportRig(8), settings);
   wall.measure("all", {"--all"});
+  wall.measure("light", {"blend", "gamma"});
   wall.measure("only", {"--only", tiny ? "p2" : "p3"});
 }
 
@@ -160,7 +164,8 @@ int main(int argc, char** argv) {
   std::vector<std::string> what = {"whole", "linear"};
   std::vector<int> projectors = {2, 8, 32};
   bool tiny = false;
-  app.add_option("--what", what, "whole: all and one projector of the report's wall; linear: walls of many sizes")
+  app.add_option("--what", what,
+                 "whole: all, light alone and one projector of the report's wall; linear: walls of many sizes")
       ->delimiter(',')
       ->check(CLI::IsMember({"whole", "linear"}));
   app.add_option("--projectors", projectors, "How many, by commas, of linear")
