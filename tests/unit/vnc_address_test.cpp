@@ -28,12 +28,15 @@ TEST(ServerAddress, ReadsEveryForm) {
       {"[2001:db8::5]", {"2001:db8::5", 5900, ""}},
       {"unix:/run/wall.sock", {"", 5900, "/run/wall.sock"}},
       {"unix:a:b c", {"", 5900, "a:b c"}},
+      {"x11::7", {"", 5900, "", ":7"}},
+      {"x11::7.1", {"", 5900, "", ":7.1"}},
   };
   for (const Good& good : cases) EXPECT_EQ(parseServerAddress(good.text), good.address) << good.text;
 }
 
 TEST(ServerAddress, WritesWhatItReads) {
-  for (const char* text : {"wall:1", "wall::7000", "[::1]:2", "[::1]::80", "unix:/run/w:x.sock", "wall::65535"}) {
+  for (const char* text :
+       {"wall:1", "wall::7000", "[::1]:2", "[::1]::80", "unix:/run/w:x.sock", "wall::65535", "x11::7"}) {
     EXPECT_EQ(parseServerAddress(text).text(), text);
   }
   for (const char* text : {"wall", "wall::5901", "wall:4000", "[2001:db8::5]"}) {
@@ -61,6 +64,7 @@ TEST(ServerAddress, SaysWhatIsWrong) {
       {"[::1]5", "after the closing bracket"},
       {"[]:1", "the host is missing"},
       {"unix:", "the path of the socket is missing"},
+      {"x11:", "the display is missing"},
       {"my wall:1", "no blanks"},
   };
   for (const auto& [text, why] : cases) {

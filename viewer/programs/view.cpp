@@ -1,4 +1,4 @@
-// pixelflex view WALL SERVER: a VNC server's desktop on the wall.
+// pixelflex view WALL SERVER: a desktop on the wall, a VNC server's or an X server's.
 
 #include <fmt/format.h>
 
@@ -17,6 +17,7 @@
 #include "viewer/programs/wall_view.h"
 #include "viewer/programs/windows.h"
 #include "viewer/vnc/known_servers.h"
+#include "viewer/x11/x_display.h"
 
 namespace pixelflex::viewer {
 namespace {
@@ -57,12 +58,14 @@ void checkFingerprint(const std::string& text) {
 
 int main(int argc, char** argv) {
   pixelflex::viewer::ViewOptions options;
-  CLI::App app{"Shows a VNC server's desktop on the wall. SERVER is HOST:DISPLAY, HOST::PORT, [V6]::PORT or unix:PATH.",
-               "pixelflex-view"};
+  CLI::App app{
+      "Shows a desktop on the wall. SERVER is a VNC server, HOST:DISPLAY, HOST::PORT, [V6]::PORT or unix:PATH, or an X "
+      "server of this machine, x11:DISPLAY (x11::7).",
+      "pixelflex-view"};
   app.set_version_flag("--version", PIXELFLEX_VERSION);
   app.add_option("WALL", options.wall, "the wall's folder")->required();
   std::string server;
-  app.add_option("SERVER", server, "the VNC server")->required();
+  app.add_option("SERVER", server, "the VNC server, or the X server of this machine")->required();
   app.add_flag("--headless", options.headless, "draw without any window or X server (EGL)");
   app.add_option("--screenshot", options.screenshot,
                  "once the picture is complete and still, write DIR/<projector>.png and DIR/desktop.png and exit");
@@ -111,6 +114,7 @@ int main(int argc, char** argv) {
     options.settle = std::chrono::milliseconds(settle);
     if (!region.empty()) options.fit.region = pixelflex::viewer::parseRegion(region);
     options.server = pixelflex::viewer::parseServerAddress(server);
+    if (options.server.isXDisplay()) (void)pixelflex::viewer::parseXDisplay(options.server.xDisplay);
     options.security.require = pixelflex::viewer::parseSecurityLevel(require);
     pixelflex::viewer::checkFingerprint(options.security.fingerprint);
   } catch (const CLI::ParseError& error) {

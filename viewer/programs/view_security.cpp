@@ -21,7 +21,8 @@ std::string knownServersFile() {
 }
 
 bool staysOnThisMachine(const ServerAddress& server) {
-  return server.isUnixSocket() || server.host == "localhost" || server.host == "::1" || server.host.starts_with("127.");
+  return server.isXDisplay() || server.isUnixSocket() || server.host == "localhost" || server.host == "::1" ||
+         server.host.starts_with("127.");
 }
 
 }  // namespace

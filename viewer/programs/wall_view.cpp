@@ -8,9 +8,14 @@
 
 #include "viewer/programs/view_security.h"
 #include "viewer/vnc/session.h"
+#include "viewer/x11/local_session.h"
 
 namespace pixelflex::viewer {
 namespace {
+
+Retry retryOf(const ViewOptions& options) {
+  return options.retry.value_or(options.screenshot ? Retry::kNever : Retry::kLost);
+}
 
 SessionOptions sessionOptions(const ViewOptions& options) {
   return {.server = options.server,
@@ -18,7 +23,15 @@ SessionOptions sessionOptions(const ViewOptions& options) {
           .user = options.user,
           .security = options.security,
           .viewOnly = options.viewOnly,
-          .retry = options.retry.value_or(options.screenshot ? Retry::kNever : Retry::kLost)};
+          .retry = retryOf(options)};
+}
+
+std::unique_ptr<DesktopSource> openSource(const ViewOptions& options, FrameBelt& belt,
+                                          const std::function<void()>& wake) {
+  if (!options.server.isXDisplay()) return std::make_unique<Session>(sessionOptions(options), belt, wake);
+  const LocalSessionOptions local{
+      .display = parseXDisplay(options.server.xDisplay), .viewOnly = options.viewOnly, .retry = retryOf(options)};
+  return std::make_unique<LocalSession>(local, belt, wake);
 }
 
 }  // namespace
@@ -30,7 +43,7 @@ WallView::WallView(const ViewOptions& options, const WallPlan& wall, devices::Gl
       renderer_(context, {.bitsPerColour = options.depth}),
       picture_(renderer_, options.whenLost),
       belt_(wake),
-      source_(std::make_unique<Session>(sessionOptions(options), belt_, wake)) {
+      source_(openSource(options, belt_, wake)) {
   // What a screenshot shows is the desktop, as a screenshot taken on the server does.
   if (options.screenshot) renderer_.showCursor(false);
 }

@@ -27,6 +27,7 @@ bool mayHeal(CloseKind kind) {
     case CloseKind::kAuthentication:
     case CloseKind::kUntrusted:
     case CloseKind::kTooLarge:
+    case CloseKind::kUnsupported:
       break;
   }
   return false;

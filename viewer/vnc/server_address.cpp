@@ -9,10 +9,11 @@ namespace {
 
 constexpr int kMaxPort = 65535;
 constexpr std::string_view kUnixPrefix = "unix:";
+constexpr std::string_view kXPrefix = "x11:";
 
 [[noreturn]] void refuse(std::string_view text, const std::string& why) {
   throw std::invalid_argument("server address \"" + std::string(text) + "\": " + why +
-                              " (write HOST:DISPLAY, HOST::PORT, [IPV6]::PORT or unix:PATH)");
+                              " (write HOST:DISPLAY, HOST::PORT, [IPV6]::PORT, unix:PATH or x11:DISPLAY)");
 }
 
 int parseNumber(std::string_view digits, std::string_view text, const std::string& what) {
@@ -76,15 +77,21 @@ ServerAddress parseServerAddress(std::string_view text) {
   if (text.starts_with(kUnixPrefix)) {
     const std::string_view path = text.substr(kUnixPrefix.size());
     if (path.empty()) refuse(text, "the path of the socket is missing");
-    return {{}, kFirstPort, std::string(path)};
+    return {{}, kFirstPort, std::string(path), {}};
+  }
+  if (text.starts_with(kXPrefix)) {
+    const std::string_view display = text.substr(kXPrefix.size());
+    if (display.empty()) refuse(text, "the display is missing, as in x11::7");
+    return {{}, kFirstPort, {}, std::string(display)};
   }
   const auto [host, suffix] = splitHost(text);
   if (host.empty()) refuse(text, "the host is missing");
   if (std::any_of(host.begin(), host.end(), isBlankOrControl)) refuse(text, "a host's name has no blanks");
-  return {std::string(host), parseSuffix(suffix, text), {}};
+  return {std::string(host), parseSuffix(suffix, text), {}, {}};
 }
 
 std::string ServerAddress::text() const {
+  if (isXDisplay()) return std::string(kXPrefix) + xDisplay;
   if (isUnixSocket()) return std::string(kUnixPrefix) + socketPath;
   const std::string bracketed = host.find(':') == std::string::npos ? host : "[" + host + "]";
   const int display = port - kFirstPort;

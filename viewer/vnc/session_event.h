@@ -55,6 +55,7 @@ enum class CloseKind {
   kUntrusted,       // the connection or the server's certificate is less than what is required
   kTooLarge,        // the desktop's size is not supported
   kLost,            // the server or the network ended the connection
+  kUnsupported,     // the server is not one that can be used
   kProtocol,        // the server sent something that makes no sense
 };
 
