@@ -134,7 +134,8 @@ void PredictedView::addSpots(std::size_t projector, const ProjectorMapping& mapp
   for (int y = from.y; y < to.y; ++y) {
     for (int x = from.x; x < to.x; ++x) {
       const auto p = mapping.projectorFromWall(raster_.wallFromRaster({x + 0.5, y + 0.5}));
-      const double coverage = p ? coverageOf(*p, size, pitch) : 0;
+      if (!p) continue;
+      const double coverage = coverageOf(*p, size, pitch);
       if (coverage <= 0) continue;
       const auto pixel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(raster_.size.width) + static_cast<std::size_t>(x);
@@ -154,9 +155,9 @@ ImageF PredictedView::see(const Image8& desktop, Correction correction, std::spa
     for (const auto& spot : spots_[i]) {
       std::array<std::uint8_t, 3> shown{codes[3 * spot.pixel], codes[3 * spot.pixel + 1], codes[3 * spot.pixel + 2]};
       if (!offsets.empty()) {
-        const glm::dvec2 at(static_cast<double>(spot.pixel % width) + 0.5,
-                            static_cast<double>(spot.pixel / width) + 0.5);
-        shown = codesAt(desktop, at - offsets[i]);
+        const std::size_t row = spot.pixel / width;
+        const glm::dvec2 middle(static_cast<double>(spot.pixel % width) + 0.5, static_cast<double>(row) + 0.5);
+        shown = codesAt(desktop, middle - offsets[i]);
       }
       addLight(i, spot, shown, correction, view);
     }

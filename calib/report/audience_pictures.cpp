@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <vector>
 
 #include "calib/report/html_text.h"
@@ -129,12 +130,29 @@ class AudiencePictures {
                   before, after, white * full);
   }
 
-  /// The overlap that is expected to fit worst; null where no two overlap.
-  [[nodiscard]] const Seam* worstSeam() const {
-    const Seam* worst = nullptr;
+  /// Two projectors whose pictures are expected to part.
+  struct Parting {
+    std::size_t first = 0, second = 0;
+    double error = 0;  // pixels of the coarser projector, rms
+    double worst = 0;
+    OverlapLine line;
+  };
+
+  [[nodiscard]] std::optional<Parting> partingAt(const Seam& seam) const {
+    const auto first = light_.indexOf(seam.first);
+    const auto second = light_.indexOf(seam.second);
+    if (!seam.insideDisplay || !first || !second) return std::nullopt;
+    const auto line = lineAcross(light_.mappings[*first], light_.mappings[*second], display_);
+    if (!line) return std::nullopt;
+    return Parting{*first, *second, seam.expectedRms, seam.expectedWorst, *line};
+  }
+
+  /// The overlap that is expected to fit worst; none where no two overlap.
+  [[nodiscard]] std::optional<Parting> worstParting() const {
+    std::optional<Parting> worst;
     for (const auto& seam : summary_.seams) {
-      if (!light_.indexOf(seam.first) || !light_.indexOf(seam.second)) continue;
-      if (seam.insideDisplay && (worst == nullptr || seam.expectedWorst > worst->expectedWorst)) worst = &seam;
+      const auto parting = partingAt(seam);
+      if (parting && (!worst || parting->worst > worst->worst)) worst = parting;
     }
     return worst;
   }
@@ -148,39 +166,30 @@ class AudiencePictures {
     return {glm::clamp(middle - extent / 2.0, low, glm::max(low, last)), pitch, size};
   }
 
-  /// Half of an overlap's expected error for each of its two projectors, in desktop pixels.
-  [[nodiscard]] std::vector<glm::dvec2> offsetsAt(const Seam& seam, const OverlapLine& line) const {
+  /// Half of the expected error for each of the two projectors, in desktop pixels.
+  [[nodiscard]] std::vector<glm::dvec2> offsetsAt(const Parting& parting) const {
+    const double perUnit = desktopPixelsPerUnit(display_);
+    const double coarser =
+        std::min(light_.mappings[parting.first].meanDensity(), light_.mappings[parting.second].meanDensity());
+    const glm::dvec2 half = 0.5 * parting.error * perUnit / coarser * parting.line.along;
     std::vector<glm::dvec2> offsets(light_.projectors.size(), glm::dvec2(0));
-    const glm::dvec2 half = 0.5 * seam.expectedRms / std::max(0.1, coarserDensity(seam)) * line.along;
-    offsets.at(*light_.indexOf(seam.first)) = -half;
-    offsets.at(*light_.indexOf(seam.second)) = half;
+    offsets[parting.first] = -half;
+    offsets[parting.second] = half;
     return offsets;
-  }
-
-  [[nodiscard]] double coarserDensity(const Seam& seam) const {
-    double least = 1e300;
-    for (const auto& projector : summary_.projectors) {
-      if (projector.name == seam.first || projector.name == seam.second)
-        least = std::min(least, projector.desktopDensity);
-    }
-    return least;
   }
 
   [[nodiscard]] std::string crop(glm::dvec3 full) const {
     glm::dvec2 middle(0.5 * (display_.left + display_.right), 0.5 * (display_.top + display_.bottom));
     std::vector<glm::dvec2> offsets(light_.projectors.size(), glm::dvec2(0));
     std::string note = " A part of the desktop, a pixel a pixel.";
-    if (const Seam* seam = worstSeam()) {
-      const auto& first = light_.mappings.at(*light_.indexOf(seam->first));
-      const auto& second = light_.mappings.at(*light_.indexOf(seam->second));
-      if (const auto line = lineAcross(first, second, display_)) {
-        middle = line->middle;
-        offsets = offsetsAt(*seam, *line);
-        note = fmt::format(
-            " A part of the desktop around the overlap of {} and {}, a pixel a pixel, doubled there by the seam error "
-            "to be expected, {:.2f} px.",
-            escaped(seam->first), escaped(seam->second), seam->expectedRms);
-      }
+    if (const auto worst = worstParting()) {
+      middle = worst->line.middle;
+      offsets = offsetsAt(*worst);
+      note = fmt::format(
+          " A part of the desktop around the overlap of {} and {}, a pixel a pixel, doubled there by the seam error to "
+          "be "
+          "expected, {:.2f} px.",
+          escaped(light_.names[worst->first]), escaped(light_.names[worst->second]), worst->error);
     }
     const PredictedView near(light_.projectors, light_.mappings, cropAround(middle));
     const Image8 text = textOf(near.raster().size);

@@ -42,6 +42,14 @@ Shown measure(const PredictedView& view, Correction correction) {
           luminanceOf(meanLight(white)), luminanceOf(meanLight(black))};
 }
 
+std::string leakOf(const StoredLight& light) {
+  return light.leak ? fmt::format("{:.2f}", 100 * *light.leak) : "–";
+}
+
+std::string responseOf(const StoredLight& light) {
+  return light.response ? fmt::format("power {:.2f}", gammaOf(*light.response)) : "sRGB assumed";
+}
+
 class LightPart {
  public:
   LightPart(const WallLight& light, const Calibration& calibration, const Summary& summary)
@@ -131,8 +139,7 @@ class LightPart {
           "<tr><th scope=\"row\">{}{}</th><td>{:.0f}</td><td>{:.1f}</td><td>{:.1f}</td><td>{}</td><td>{}</td></tr>\n",
           chip(colours_[i]), escaped(light_.names[i]), 100 * native.level / most,
           whiteDifference(native.white, before, before), whiteDifference(matched.white, after, after),
-          own.stored().leak ? fmt::format("{:.2f}", 100 * *own.stored().leak) : "–",
-          own.stored().response ? fmt::format("power {:.2f}", gammaOf(*own.stored().response)) : "sRGB assumed");
+          leakOf(own.stored()), responseOf(own.stored()));
     }
     return html + kCloseTable;
   }

@@ -48,41 +48,37 @@ TEST(Evenness, WhatIsNotLitDoesNotCount) {
 
 TEST(LightFigures, MatchedProjectorsHaveOneWhite) {
   LitWall lit(3);
-  const auto before = lit.light();
-  ASSERT_TRUE(before);
-  EXPECT_GT(compareColours(*before, Correction::kNone).whiteWorst, 3);
-  EXPECT_FALSE(before->matched);
+  const auto before = lit.light().value();
+  EXPECT_GT(compareColours(before, Correction::kNone).whiteWorst, 3);
+  EXPECT_FALSE(before.matched);
   lit.match();
-  const auto after = lit.light();
-  ASSERT_TRUE(after);
-  EXPECT_TRUE(after->matched);
-  EXPECT_GT(compareColours(*after, Correction::kNone).whiteWorst, 3);
-  EXPECT_LT(compareColours(*after, Correction::kWhole).whiteWorst, 0.01);
-  EXPECT_FALSE(compareColours(*after, Correction::kWhole).primariesRms);
+  const auto after = lit.light().value();
+  EXPECT_TRUE(after.matched);
+  EXPECT_GT(compareColours(after, Correction::kNone).whiteWorst, 3);
+  EXPECT_LT(compareColours(after, Correction::kWhole).whiteWorst, 0.01);
+  EXPECT_FALSE(compareColours(after, Correction::kWhole).primariesRms);
 }
 
 TEST(LightFigures, PrimariesAreComparedWhereTheyAreKnown) {
   LitWall lit;
   for (auto& projector : lit.plain.calibration.projectors) {
-    projector.measured->primariesKnown = true;
+    projector.measured.value().primariesKnown = true;
     const double crosstalk = projector.name == "p1" ? 0.02 : 0.1;
-    projector.measured->primaries = {1, crosstalk, 0, crosstalk, 1, crosstalk, 0, crosstalk, 1};
+    projector.measured.value().primaries = {1, crosstalk, 0, crosstalk, 1, crosstalk, 0, crosstalk, 1};
   }
-  const auto light = lit.light();
-  ASSERT_TRUE(light);
-  const auto figures = compareColours(*light, Correction::kNone);
+  const auto light = lit.light().value();
+  const auto figures = compareColours(light, Correction::kNone);
   ASSERT_TRUE(figures.primariesRms);
-  EXPECT_GT(*figures.primariesRms, 2);
+  EXPECT_GT(figures.primariesRms.value(), 2);
 }
 
 TEST(WallLight, OfAStackForTwoEyesIsTheLeftEyes) {
   LitWall lit(2);
   lit.plain.wall.blend.stack = StackRule::kLeftRight;
   lit.plain.calibration.projectors[1].model = lit.plain.calibration.projectors[0].model;
-  const auto light = lit.light();
-  ASSERT_TRUE(light);
-  EXPECT_TRUE(light->leftEye);
-  EXPECT_THAT(light->names, ::testing::ElementsAre("p1"));
+  const auto light = lit.light().value();
+  EXPECT_TRUE(light.leftEye);
+  EXPECT_THAT(light.names, ::testing::ElementsAre("p1"));
 }
 
 TEST(WhiteFromPicture, UnseenNodesTakeTheMeanOfTheirNeighbours) {
@@ -92,12 +88,11 @@ TEST(WhiteFromPicture, UnseenNodesTakeTheMeanOfTheirNeighbours) {
     picture.at(1, 1, c) = 40000;
   }
   picture.at(4, 2, 0) = 9;  // seen in one channel alone: not seen
-  const auto white = whiteFromPicture(picture, 65.535);
-  ASSERT_TRUE(white);
-  EXPECT_NEAR(white->at(0, 1, 2), 20, 1e-4);
-  EXPECT_NEAR(white->at(0, 0, 1), 30, 1e-4);
-  EXPECT_NEAR(white->at(2, 0, 1), 40, 1e-4);
-  EXPECT_NEAR(white->at(4, 2, 0), 40, 1e-4);
+  const auto white = whiteFromPicture(picture, 65.535).value();
+  EXPECT_NEAR(white.at(0, 1, 2), 20, 1e-4);
+  EXPECT_NEAR(white.at(0, 0, 1), 30, 1e-4);
+  EXPECT_NEAR(white.at(2, 0, 1), 40, 1e-4);
+  EXPECT_NEAR(white.at(4, 2, 0), 40, 1e-4);
   EXPECT_FALSE(whiteFromPicture(Image16({4, 4}, 3), 1));
   EXPECT_FALSE(whiteFromPicture(Image16({4, 4}, 1), 1));
 }
@@ -114,41 +109,37 @@ class Overlap : public ::testing::Test {
 
 TEST_F(Overlap, ItsLineRunsAcrossWhereItIsNarrow) {
   const Display display{0, 0, 1850, 1000, {1850, 1000}};
-  const auto line = lineAcross(square({850, 0}, 1000), square({0, 0}, 1000), display);
-  ASSERT_TRUE(line);
-  EXPECT_NEAR(line->middle.x, 925, 2);
-  EXPECT_NEAR(line->middle.y, 500, 2);
-  EXPECT_NEAR(line->along.x, 1, 1e-6);
-  EXPECT_NEAR(line->at(line->overlapBegin).x, 850, 2);
-  EXPECT_NEAR(line->at(line->overlapEnd).x, 1000, 2);
-  EXPECT_NEAR(line->at(line->begin).x, 760, 4);
-  EXPECT_NEAR(line->at(line->end).x, 1090, 4);
+  const auto line = lineAcross(square({850, 0}, 1000), square({0, 0}, 1000), display).value();
+  EXPECT_NEAR(line.middle.x, 925, 2);
+  EXPECT_NEAR(line.middle.y, 500, 2);
+  EXPECT_NEAR(line.along.x, 1, 1e-6);
+  EXPECT_NEAR(line.at(line.overlapBegin).x, 850, 2);
+  EXPECT_NEAR(line.at(line.overlapEnd).x, 1000, 2);
+  EXPECT_NEAR(line.at(line.begin).x, 760, 4);
+  EXPECT_NEAR(line.at(line.end).x, 1090, 4);
 }
 
 TEST_F(Overlap, OfCornersRunsFromMiddleToMiddle) {
   const Display display{0, 0, 1800, 1800, {1800, 1800}};
-  const auto line = lineAcross(square({0, 0}, 1000), square({800, 800}, 1000), display);
-  ASSERT_TRUE(line);
-  EXPECT_NEAR(line->along.x, std::numbers::sqrt2 / 2, 1e-3);
-  EXPECT_NEAR(line->along.y, std::numbers::sqrt2 / 2, 1e-3);
+  const auto line = lineAcross(square({0, 0}, 1000), square({800, 800}, 1000), display).value();
+  EXPECT_NEAR(line.along.x, std::numbers::sqrt2 / 2, 1e-3);
+  EXPECT_NEAR(line.along.y, std::numbers::sqrt2 / 2, 1e-3);
 }
 
 TEST_F(Overlap, TurnedWithTheProjectors) {
   const double turn = 0.3;
   const glm::dvec2 way(std::cos(turn), std::sin(turn));
   const Display display{-1000, -1000, 3000, 3000, {4000, 4000}};
-  const auto line = lineAcross(square({0, 0}, 1000, turn), square(800.0 * way, 1000, turn), display);
-  ASSERT_TRUE(line);
-  EXPECT_NEAR(line->along.x, way.x, 0.02);
-  EXPECT_NEAR(line->along.y, way.y, 0.02);
+  const auto line = lineAcross(square({0, 0}, 1000, turn), square(800.0 * way, 1000, turn), display).value();
+  EXPECT_NEAR(line.along.x, way.x, 0.02);
+  EXPECT_NEAR(line.along.y, way.y, 0.02);
 }
 
 TEST_F(Overlap, AnInsetsLineEndsInTheOtherProjector) {
   const Display display{0, 0, 1000, 1000, {1000, 1000}};
-  const auto line = lineAcross(square({0, 0}, 1000), square({400, 450}, 100), display);
-  ASSERT_TRUE(line);
-  EXPECT_NEAR(line->overlapEnd - line->overlapBegin, 100, 8);
-  EXPECT_LT(line->begin, line->overlapBegin - 40);
+  const auto line = lineAcross(square({0, 0}, 1000), square({400, 450}, 100), display).value();
+  EXPECT_NEAR(line.overlapEnd - line.overlapBegin, 100, 8);
+  EXPECT_LT(line.begin, line.overlapBegin - 40);
 }
 
 TEST_F(Overlap, NoneOutsideTheDisplay) {
@@ -159,15 +150,13 @@ TEST_F(Overlap, NoneOutsideTheDisplay) {
 TEST_F(Overlap, ProfileOfAMatchedWallIsFlat) {
   LitWall lit;
   lit.match();
-  const auto light = lit.light();
-  ASSERT_TRUE(light);
-  const auto line = lineAcross(light->mappings[0], light->mappings[1], *lit.plain.calibration.display);
-  ASSERT_TRUE(line);
+  const auto light = lit.light().value();
+  const auto line = lineAcross(light.mappings[0], light.mappings[1], lit.plain.calibration.display.value()).value();
   const double dim = 90 * (1 - 0.2 * kCameraLuminance[2]);  // luminance of the common white
-  const Profile after = profileAlong(*line, *light, Correction::kWhole);
+  const Profile after = profileAlong(line, light, Correction::kWhole);
   ASSERT_EQ(after.parts.size(), 2u);
   for (const double sum : after.sum) EXPECT_NEAR(sum, dim, 0.01 * dim);
-  const Profile before = profileAlong(*line, *light, Correction::kNone);
+  const Profile before = profileAlong(line, light, Correction::kNone);
   EXPECT_NEAR(before.sum.front(), 180 * 1.002, 0.1);
   EXPECT_NEAR(before.sum.back(), dim * 1.002, 0.1);
   EXPECT_NEAR(before.sum[before.sum.size() / 2], (180 + dim) * 1.002, 0.1);
@@ -176,15 +165,13 @@ TEST_F(Overlap, ProfileOfAMatchedWallIsFlat) {
 TEST_F(Overlap, DifferenceOfUnlikeAndOfMatchedProjectors) {
   LitWall lit;
   lit.match();
-  const auto light = lit.light();
-  ASSERT_TRUE(light);
-  const auto line = lineAcross(light->mappings[0], light->mappings[1], *lit.plain.calibration.display);
-  ASSERT_TRUE(line);
-  const auto unlike = differenceOver(*line, 0, 1, *light, Correction::kNone);
+  const auto light = lit.light().value();
+  const auto line = lineAcross(light.mappings[0], light.mappings[1], lit.plain.calibration.display.value()).value();
+  const auto unlike = differenceOver(line, 0, 1, light, Correction::kNone);
   const double second = 0.5 * (1 - 0.2 * kCameraLuminance[2]);
   EXPECT_NEAR(unlike.luminance, 2 * (1 - second) / (1 + second), 1e-3);
   EXPECT_GT(unlike.colour, 3);
-  const auto alike = differenceOver(*line, 0, 1, *light, Correction::kWhole);
+  const auto alike = differenceOver(line, 0, 1, light, Correction::kWhole);
   EXPECT_LT(alike.luminance, 0.003);
   EXPECT_LT(alike.colour, 0.1);  // the leak keeps its own colour
 }

@@ -54,7 +54,7 @@ TEST(LightReport, DamagedFilesAreLeftOut) {
 
 TEST(LightReport, BlackIsLeftOutWhereALeakIsNotKnown) {
   LitWall lit;
-  lit.plain.calibration.projectors[1].measured->leak.reset();
+  lit.plain.calibration.projectors[1].measured.value().leak.reset();
   const std::string html = lit.page();
   EXPECT_THAT(html, HasSubstr("alt=\"White, calibrated\""));
   EXPECT_THAT(html, Not(HasSubstr("alt=\"Black, ")));

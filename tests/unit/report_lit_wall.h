@@ -66,7 +66,7 @@ class LitWall {
     }
     auto& own = plain.calibration.projectors[projector];
     own.measured = MeasuredLight{.white = "calibration/" + own.name + "-white.png", .brightest = 180, .leak = 0.002};
-    devices::writePng(folder_ / own.measured->white, white);
+    devices::writePng(folder_ / own.measured.value().white, white);
   }
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }

@@ -42,7 +42,7 @@ class PredictedLight : public ::testing::Test {
  protected:
   PredictedLight() : room_(miniRig(2)) {
     calibrated_ = calibrateRig(room_, folder_.path(), std::nullopt, {.uniformity = 0.5, .evenBlack = true});
-    light_ = readWallLight(folder_.path(), calibrated_.wall, calibrated_.calibration);
+    light_ = readWallLight(folder_.path(), calibrated_.wall, calibrated_.calibration).value();
   }
 
   [[nodiscard]] devices::ImageF truth(std::uint8_t code) const {
@@ -51,19 +51,19 @@ class PredictedLight : public ::testing::Test {
       frames.emplace_back(projector.resolution, 3);
       std::ranges::fill(frames.back().samples(), code);
     }
-    const Display& d = *calibrated_.calibration.display;
+    const Display& d = calibrated_.calibration.display.value();
     return room_.audienceLight(frames, {d.left, d.top}, {d.right, d.bottom}, size());
   }
 
   [[nodiscard]] devices::ImageF predicted(std::uint8_t code) const {
-    const Display& d = *calibrated_.calibration.display;
-    const PredictedView view(light_->projectors, light_->mappings,
+    const Display& d = calibrated_.calibration.display.value();
+    const PredictedView view(light_.projectors, light_.mappings,
                              {{d.left, d.top}, (d.right - d.left) / size().width, size()});
     return view.seeField({code, code, code}, Correction::kNone);
   }
 
   [[nodiscard]] devices::Size size() const {
-    const Display& d = *calibrated_.calibration.display;
+    const Display& d = calibrated_.calibration.display.value();
     return {300, static_cast<int>(300 * (d.bottom - d.top) / (d.right - d.left))};
   }
 
@@ -106,12 +106,11 @@ class PredictedLight : public ::testing::Test {
   testing::TemporaryFolder folder_;
   SimulatedWall room_;
   CalibratedRig calibrated_;
-  std::optional<WallLight> light_;
+  WallLight light_;
 };
 
 TEST_F(PredictedLight, IsNearTheTruth) {
-  ASSERT_TRUE(light_);
-  EXPECT_TRUE(light_->matched && light_->evened && light_->leakKnown);
+  EXPECT_TRUE(light_.matched && light_.evened && light_.leakKnown);
   const double white = error(255);
   const double grey = error(128);
   const double black = error(0);
