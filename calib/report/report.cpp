@@ -31,13 +31,18 @@ std::string maskOf(const fs::path& folder, const ProjectorCalibration& projector
   return mask.empty() ? "" : drawMask(mask);
 }
 
+std::string cameraError(const ProjectorCalibration& projector) {
+  if (!projector.responseError) return "";
+  return fmt::format(", by the camera to {:.1f} % of light", 100 * *projector.responseError);
+}
+
 /// Response, gain and lift of black: what is done to a projector's light besides its mask.
 std::string lightFigures(const fs::path& folder, const ProjectorCalibration& projector) {
   std::string html;
   if (const auto response = readStoredResponse(folder, projector)) {
-    html += figure(
-        "third", drawResponse(*response, projector.name),
-        fmt::format("Response of the three channels, nearest to the power {:.2f}. Dashed: sRGB.", gammaOf(*response)));
+    html += figure("third", drawResponse(*response, projector.name),
+                   fmt::format("Response of the three channels, nearest to the power {:.2f}{}. Dashed: sRGB.",
+                               gammaOf(*response), cameraError(projector)));
   }
   if (!projector.light) return html;
   const auto gain = drawStretched(readStoredMap(folder, projector.light->gain), "Gain");

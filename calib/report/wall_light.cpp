@@ -54,7 +54,7 @@ std::optional<StoredLight> readLight(const fs::path& folder, const ProjectorCali
   if (!white || light.share.empty()) return std::nullopt;
   light.white = *white;
   if (projector.measured->primariesKnown) light.primaries = projector.measured->primaries;
-  light.leak = projector.measured->leak;
+  light.leak = projector.measured->leak ? projector.measured->leak : projector.leak;
   light.response = readStoredResponse(folder, projector);
   if (!projector.light) return light;
   light.colour = projector.light->colour;

@@ -32,6 +32,13 @@ TEST(LightReport, ShowsTheAudiencesViewAndEveryOverlapAndFetchesNothing) {
   EXPECT_LT(html.size(), 900'000u);
 }
 
+TEST(LightReport, SaysHowWellTheCameraMeasuredAResponse) {
+  LitWall lit;
+  EXPECT_THAT(lit.page(), Not(HasSubstr("by the camera to")));
+  lit.plain.calibration.projectors[1].responseError = 0.0123;
+  EXPECT_EQ(count(lit.page(), "nearest to the power 2.40, by the camera to 1.2 % of light."), 1u);
+}
+
 TEST(LightReport, WithoutMeasuredLightThePageIsWholeAndSaysNothingOfIt) {
   LitWall lit;
   lit.plain.calibration.projectors[1].measured.reset();
