@@ -29,6 +29,8 @@ const std::map<std::string, WhenLost> kWhenLost{
 
 const std::map<std::string, Fit> kFits{{"letterbox", Fit::kLetterbox}, {"stretch", Fit::kStretch}};
 
+const std::map<std::string, Source> kSources{{"vnc", Source::kVnc}, {"auto", Source::kAuto}};
+
 int view(const ViewOptions& options) {
   const WallPlan wall(options.wall, calib::loadWall(options.wall), calib::loadCalibration(options.wall),
                       options.projectors, options.fit);
@@ -81,6 +83,12 @@ int main(int argc, char** argv) {
       ->option_text("letterbox|stretch");
   std::string region;
   app.add_option("--region", region, "show only this part of the desktop: X,Y,WIDTHxHEIGHT, desktop pixels");
+  app.add_option(
+         "--source", options.source,
+         "vnc, as SERVER says, or auto: straight from the X server of this machine when the VNC server is Xvnc, "
+         "thus one and the same; else vnc")
+      ->transform(CLI::CheckedTransformer(pixelflex::viewer::kSources))
+      ->option_text("vnc|auto");
   app.add_flag("--view-only", options.viewOnly, "send neither pointer nor keys");
   app.add_option("--password-file", options.passwordFile,
                  "the first line is the password, or vncpasswd wrote it; mode 0600. Without it PIXELFLEX_VNC_PASSWORD "

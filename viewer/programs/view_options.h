@@ -16,10 +16,17 @@ enum class WhenLost { kDim, kMark, kKeep };
 /// "X,Y,WxH", desktop pixels. Throws std::invalid_argument.
 [[nodiscard]] Box parseRegion(const std::string& text);
 
+/// How the desktop of a VNC server of this machine comes here.
+enum class Source {
+  kVnc,
+  kAuto,  // straight from its X server, where that is certainly the same desktop
+};
+
 /// The command line of `pixelflex view`.
 struct ViewOptions {
   std::string wall;
   ServerAddress server;
+  Source source = Source::kVnc;
   bool headless = false;
   std::optional<std::string> screenshot;  // folder
   std::chrono::milliseconds settle{500};

@@ -9,6 +9,7 @@
 #include "viewer/programs/view_security.h"
 #include "viewer/vnc/session.h"
 #include "viewer/x11/local_session.h"
+#include "viewer/x11/same_desktop.h"
 
 namespace pixelflex::viewer {
 namespace {
@@ -26,12 +27,13 @@ SessionOptions sessionOptions(const ViewOptions& options) {
           .retry = retryOf(options)};
 }
 
-std::unique_ptr<DesktopSource> openSource(const ViewOptions& options, FrameBelt& belt,
-                                          const std::function<void()>& wake) {
-  if (!options.server.isXDisplay()) return std::make_unique<Session>(sessionOptions(options), belt, wake);
-  const LocalSessionOptions local{
-      .display = parseXDisplay(options.server.xDisplay), .viewOnly = options.viewOnly, .retry = retryOf(options)};
-  return std::make_unique<LocalSession>(local, belt, wake);
+// The X display to show instead of what was asked for: only a VNC server may be passed by, and no wish for security.
+std::optional<XDisplay> displayInstead(const ViewOptions& options) {
+  const SecurityOptions& security = options.security;
+  const bool secured =
+      security.require != SecurityLevel::kNone || !security.caFile.empty() || !security.fingerprint.empty();
+  if (options.source != Source::kAuto || secured) return std::nullopt;
+  return displayBehind(options.server);
 }
 
 }  // namespace
@@ -43,9 +45,25 @@ WallView::WallView(const ViewOptions& options, const WallPlan& wall, devices::Gl
       renderer_(context, {.bitsPerColour = options.depth}),
       picture_(renderer_, options.whenLost),
       belt_(wake),
-      source_(openSource(options, belt_, wake)) {
+      wake_(wake),
+      source_(openSource()) {
   // What a screenshot shows is the desktop, as a screenshot taken on the server does.
   if (options.screenshot) renderer_.showCursor(false);
+}
+
+std::unique_ptr<DesktopSource> WallView::openSource() {
+  LocalSessionOptions local{.viewOnly = options_.viewOnly, .retry = retryOf(options_)};
+  if (options_.server.isXDisplay()) {
+    local.display = parseXDisplay(options_.server.xDisplay);
+  } else if (const auto display = displayInstead(options_)) {
+    fmt::print(stderr, "pixelflex-view: {} is the X display {} of this machine: shown directly\n",
+               options_.server.text(), display->text());
+    local.display = *display;
+    direct_ = true;
+  } else {
+    return std::make_unique<Session>(sessionOptions(options_), belt_, wake_);
+  }
+  return std::make_unique<LocalSession>(local, belt_, wake_);
 }
 
 WallView::Step WallView::step() {
@@ -95,6 +113,12 @@ void WallView::handle(const SessionEvent& event) {
 
 void WallView::lose(const std::string& reason) {
   connected_ = false;
+  if (std::exchange(direct_, false)) {
+    // Whether its display will be the same when it returns, nobody knows.
+    SessionOptions waiting = sessionOptions(options_);
+    waiting.retry = Retry::kAlways;
+    source_ = std::make_unique<Session>(std::move(waiting), belt_, wake_);
+  }
   if (lostSince_) return;
   lostSince_ = Clock::now();
   fmt::print(stderr, "pixelflex-view: {}; waiting for it to return\n", reason);

@@ -70,6 +70,7 @@ class WallView {
   void handle(const SessionEvent& event);
   void lose(const std::string& reason);
   void comeBack();
+  [[nodiscard]] std::unique_ptr<DesktopSource> openSource();
   void adopt(devices::Size desktop);
 
   const ViewOptions& options_;
@@ -77,6 +78,8 @@ class WallView {
   WallRenderer renderer_;
   LostPicture picture_;
   FrameBelt belt_;
+  std::function<void()> wake_;
+  bool direct_ = false;  // the X server behind the VNC server that was asked for
   std::unique_ptr<DesktopSource> source_;
   std::optional<PointerMap> pointerMap_;
   devices::Size desktop_;
