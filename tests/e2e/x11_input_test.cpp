@@ -102,16 +102,29 @@ TEST_F(LocalInput, ShortcutsArrive) {
 TEST_F(LocalInput, ThePointerAndItsButtonsArrive) {
   const auto x = startXvfb({800, 600});
   const fs::path log = folder_ / "events";
-  const Process events({"xev", "-root", "-event", "mouse"}, {.environment = {"DISPLAY=" + x->display()}, .log = log});
+  const Process events({"stdbuf", "-oL", "xev", "-root", "-event", "mouse"},
+                       {.environment = {"DISPLAY=" + x->display()}, .log = log});
   const auto mirror = mirrorOf(x->display());
   ASSERT_TRUE(mirror->pumpUntilEqual(x->display())) << mirror->summary();
+  const auto counts = [&log](const std::string& word) {
+    const std::string text = textOf(log);
+    std::size_t count = 0;
+    for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+    return count;
+  };
+  // xev is there once it sees the pointer move.
+  int x0 = 0;
+  ASSERT_TRUE(mirror->pumpUntil([&] {
+    mirror->session().sendPointer(++x0 % 100, 7, 0);
+    return counts("MotionNotify") > 0;
+  }));
   for (const unsigned buttons : {0x01u, 0x00u, 0x04u, 0x00u, 0x08u, 0x00u, 0x80u, 0x00u}) {
     mirror->session().sendPointer(321, 123, static_cast<std::uint8_t>(buttons));
   }
-  // xev holds back what it prints until it has a block or its end.
-  x->query({"xdotool", "getmouselocation"});
-  EXPECT_TRUE(mirror->pumpUntil([&] { return x->query({"xdotool", "getmouselocation"}).starts_with("x:321 y:123"); }));
-  events.signal(SIGTERM);
+  EXPECT_TRUE(mirror->pumpUntil([&] { return counts("ButtonRelease") == 4; })) << textOf(log);
+  EXPECT_EQ(counts("ButtonPress"), 4u);
+  for (const char* button : {"button 1", "button 3", "button 4", "button 8"}) EXPECT_EQ(counts(button), 2u) << button;
+  EXPECT_THAT(textOf(log), HasSubstr("root:(321,123)"));
 }
 
 TEST_F(LocalInput, KeysAreLetGoAndTheLayoutIsAsBeforeWhenASessionEnds) {

@@ -50,6 +50,15 @@ TEST_F(LocalView, OfAnXDisplayIsExact) {
   expectExact(*x);
 }
 
+TEST_F(LocalView, DoesNotShowTheDisplayThatItsWindowsAreOn) {
+  const auto x = startServer();
+  const Output refused =
+      run({std::string(PIXELFLEX_BIN_DIR) + "/pixelflex-view", wall().string(), "x11:" + x->display()},
+          {"DISPLAY=" + x->display()});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.text, HasSubstr("which they show"));
+}
+
 TEST_F(LocalView, IsChosenForXvncWhenAskedTo) {
   const auto x = startServer();
   x->query({"xsetroot", "-mod", "5", "7", "-fg", "#336699", "-bg", "#cc9911"});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <memory>
 #include <numeric>
 
@@ -16,6 +17,7 @@
 #include "viewer/programs/room_of_rig.h"
 #include "viewer/programs/stats_printer.h"
 #include "viewer/programs/wall_view.h"
+#include "viewer/x11/x_display.h"
 
 namespace pixelflex::viewer {
 namespace {
@@ -42,6 +44,18 @@ std::optional<std::string> chooseDisplay(const WallPlan& wall) {
   return chosen;
 }
 
+/// A desktop that shows itself would never come to rest.
+std::optional<std::string> requireAnother(const ViewOptions& options, std::optional<std::string> display) {
+  const char* usual = std::getenv("DISPLAY");
+  const std::string windows = display.value_or(usual == nullptr ? "" : usual);
+  const bool local = windows.starts_with(':') && options.server.isXDisplay();
+  if (local && parseXDisplay(windows) == parseXDisplay(options.server.xDisplay)) {
+    throw ViewError("the windows would be on " + windows +
+                    ", which they show: give the projectors another display in wall.yaml, or use --headless");
+  }
+  return display;
+}
+
 /// The options with a depth that the display's windows can show.
 ViewOptions atDepthOf(devices::Window& window, const ViewOptions& options) {
   ViewOptions possible = options;
@@ -57,7 +71,7 @@ class WallWindows {
  public:
   WallWindows(const ViewOptions& options, const WallPlan& wall)
       : wall_(wall),
-        loop_(chooseDisplay(wall)),
+        loop_(requireAnother(options, chooseDisplay(wall))),
         hidden_(loop_, {.title = "PixelFlex", .size = {16, 16}, .visible = false, .bitsPerColour = options.depth}),
         options_(atDepthOf(hidden_, options)),
         view_(options_, wall, hidden_, [this] { loop_.wake(); }),
