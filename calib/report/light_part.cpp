@@ -175,7 +175,7 @@ class LightPart {
         drawProfiles({*line, before, after, masked, whole_.light, colours_},
                      "Luminance across the overlap of " + seam.first + " and " + seam.second),
         names, 100 * unlike.luminance, unlike.colour,
-        light_.matched ? fmt::format(", matched by {:.1f} % and {:.1f}", 100 * alike.luminance, alike.colour) : "");
+        light_.matched ? fmt::format("; matched, by {:.1f} % and ΔE {:.1f}", 100 * alike.luminance, alike.colour) : "");
   }
 
   const WallLight& light_;

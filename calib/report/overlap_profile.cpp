@@ -101,7 +101,7 @@ double whiteAt(const WallLight& light, std::size_t projector, glm::dvec2 point, 
   return luminanceOf(own.lightOf(own.placeAt(*place), kWhite, correction));
 }
 
-/// As if it lit the place alone.
+/// As if it lit the place alone, above its black.
 std::optional<glm::dvec3> fullWhiteAt(const WallLight& light, std::size_t projector, glm::dvec2 point,
                                       Correction correction) {
   const auto inside = inFrame(light.mappings[projector], point);
@@ -109,7 +109,8 @@ std::optional<glm::dvec3> fullWhiteAt(const WallLight& light, std::size_t projec
   const auto& own = light.projectors[projector];
   FramePlace place = own.placeAt(*inside);
   place.share = 1;
-  return own.lightOf(place, kWhite, correction);
+  place.lift = 0;
+  return own.lightOf(place, kWhite, correction) - own.lightOf(place, {0, 0, 0}, correction);
 }
 
 }  // namespace

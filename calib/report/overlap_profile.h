@@ -36,7 +36,7 @@ struct Profile {
 };
 [[nodiscard]] Profile profileAlong(const OverlapLine& line, const WallLight& light, Correction correction);
 
-/// How unlike two projectors are over their overlap, each at full share.
+/// How unlike the whites of two projectors are over their overlap, each at full share and above its black.
 struct OverlapDifference {
   double luminance = 0;  // root of the mean square, of the mean of the two
   double colour = 0;     // CIEDE2000 at equal brightness, of the means

@@ -172,8 +172,8 @@ TEST_F(Overlap, DifferenceOfUnlikeAndOfMatchedProjectors) {
   EXPECT_NEAR(unlike.luminance, 2 * (1 - second) / (1 + second), 1e-3);
   EXPECT_GT(unlike.colour, 3);
   const auto alike = differenceOver(line, 0, 1, light, Correction::kWhole);
-  EXPECT_LT(alike.luminance, 0.003);
-  EXPECT_LT(alike.colour, 0.1);  // the leak keeps its own colour
+  EXPECT_LT(alike.luminance, 0.001);
+  EXPECT_LT(alike.colour, 0.01);
 }
 
 TEST(ResponseDrawing, FindsThePower) {
