@@ -1,8 +1,10 @@
 # Registration against ground truth through the real renderer.
 target_sources(pixelflex_test_calibration
   PRIVATE support_calibration/coordinate_desktop.cpp support_calibration/light_session.cpp
+    support_calibration/response_error.cpp
   PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}
-    FILES support_calibration/coordinate_desktop.h support_calibration/light_session.h)
+    FILES support_calibration/coordinate_desktop.h support_calibration/light_session.h
+    support_calibration/response_error.h)
 target_link_libraries(pixelflex_test_calibration PUBLIC pixelflex_plan PRIVATE pixelflex_renderer)
 
 add_executable(accuracy_table accuracy/accuracy_table.cpp accuracy/accuracy_rigs.cpp accuracy/report_pipeline.cpp)

@@ -34,6 +34,7 @@ constexpr std::array<Description, kFigureCount> kFigures = {{
     {Figure::kPrimaries, "colour of primaries between projectors, RMS of CIEDE2000", Unit::kDifference, 2},
     {Figure::kInset, "step across the border of an inset of threefold density", Unit::kPercent, 0.01},
     {Figure::kSlipped, "step, grey 128, pictures slipped by 0.3 px", Unit::kPercent, 0.01},
+    {Figure::kResponse, "response measured by the camera, codes 20 to 235, RMS", Unit::kPercent, 0.015},
     {Figure::kTextFine, "text, SSIM with oversampling 1.25", Unit::kLikeness, 0.88},
     {Figure::kText, "text, SSIM with oversampling 1", Unit::kLikeness, 0.84},
     {Figure::kTextSoft, "text, SSIM with oversampling 1.25, as badly focused as the rigs are", Unit::kLikeness,

@@ -23,6 +23,7 @@ enum class Figure : std::size_t {
   kPrimaries,
   kInset,
   kSlipped,
+  kResponse,
   kTextFine,
   kText,
   kTextSoft,
@@ -31,7 +32,7 @@ enum class Figure : std::size_t {
   kWhite,
   kContrast,
 };
-inline constexpr std::size_t kFigureCount = 21;
+inline constexpr std::size_t kFigureCount = 22;
 
 /// The columns: as PixelFlex shows it, without any correction of light, and by the report's method.
 enum class Correction : std::size_t { kMatched, kNone, kReport };

@@ -14,6 +14,7 @@
 #include "tests/accuracy/text_likeness.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support_calibration/light_session.h"
+#include "tests/support_calibration/response_error.h"
 
 namespace pixelflex::calib {
 namespace {
@@ -78,6 +79,7 @@ class LightBench {
     measureSteps(Correction::kMatched, usual);
     addSteepest(Correction::kMatched, usual);
     if (kind_.text) measureText(Correction::kMatched, showMatched);
+    if (kind_.response) measureResponse();
   }
 
   template <class Make>
@@ -151,6 +153,19 @@ class LightBench {
       const Show show = make(room_.rig(), plan(), display.resolution);
       add(figure, correction, likeness(sharpRoom, display, show));
       if (figure == Figure::kTextFine) add(Figure::kTextSoft, correction, likeness(room_, display, show));
+    }
+  }
+
+  /// Beside what is assumed without measuring: sRGB.
+  void measureResponse() {
+    ResponseCurve assumed;
+    for (auto& channel : assumed.light) {
+      for (std::size_t code = 0; code < channel.size(); ++code) channel.at(code) = lightOfSrgb(static_cast<int>(code));
+    }
+    for (std::size_t i = 0; i < room_.projectorCount(); ++i) {
+      const std::string name = " " + room_.rig().projectors[i].name;
+      add(Figure::kResponse, Correction::kMatched, responseError(session_.responseByCamera(i), room_, i), name);
+      add(Figure::kResponse, Correction::kNone, responseError(assumed, room_, i), name);
     }
   }
 

@@ -6,14 +6,17 @@
 #include "calib/simulate/rig_generator.h"
 
 namespace pixelflex::calib {
+namespace {
+
+Rig unlikePair(std::uint32_t seed) {
+  return withUnlikeLight(casualRig(2, 1, {1024, 768}, seed), seed);
+}
+
+}  // namespace
 
 const std::vector<LightRig>& lightRigs() {
   static const std::vector<LightRig> kRigs = {
-      {.name = "pair",
-       .make =
-           [](auto seed) {
-             return withUnlikeLight(casualRig(2, 1, {1024, 768}, seed), seed);
-           }},
+      {.name = "pair", .make = unlikePair, .response = true},
       {.name = "report-8", .make = [](auto seed) { return withUnlikeLight(reportRig(seed), seed); }, .text = true},
       {.name = "inset", .make = [](auto seed) { return withUnlikeLight(insetRig(seed), seed); }, .inset = true},
       {.name = "stacked", .make = [](auto seed) { return withUnlikeLight(stackedRig(seed), seed); }},

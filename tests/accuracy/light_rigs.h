@@ -13,8 +13,9 @@ namespace pixelflex::calib {
 struct LightRig {
   std::string name;
   std::function<Rig(std::uint32_t seed)> make;
-  bool inset = false;  // a dense projector inside another: its border has a row of its own
-  bool text = false;   // large enough to read on
+  bool inset = false;     // a dense projector inside another: its border has a row of its own
+  bool response = false;  // projectors whose response the camera measures
+  bool text = false;      // large enough to read on
 };
 
 [[nodiscard]] const std::vector<LightRig>& lightRigs();

@@ -11,7 +11,6 @@
 #include "tests/accuracy/light_figures.h"
 #include "tests/accuracy/light_measurement.h"
 #include "tests/accuracy/light_rigs.h"
-#include "tests/accuracy/wall_view.h"
 
 namespace pixelflex::calib {
 namespace {
@@ -27,12 +26,11 @@ struct Options {
 
 constexpr std::string_view kMeasures =
     "The wall is photographed again: what all projectors truly throw on it from frames that the real renderer drew, as "
-    "linear light, straight on. The display is {} degrees wide; eyes blur by 2 desktop pixels; 8 at its edge do not "
+    "linear light, straight on. The display is 60 degrees wide; eyes blur by 2 desktop pixels; 8 at its edge do not "
     "count.\n"
     "Step: of the profile at right angles to a projector's true frame edge, 4 to 28 desktop pixels to either side, "
     "averaged along one degree of the edge, what neither its level nor its slope explains; relative, the largest of "
-    "all "
-    "edges inside the display, at uniformity 1 and 0.5. All with even black.\n"
+    "all edges inside the display, at uniformity 1 and 0.5. All with even black.\n"
     "Banding: RMS error of grey in the overlaps against white and black there, its mean taken out.\n"
     "Text: what an X client drew in black on white, projectors in focus (0.3 pixels); structural similarity of sRGB "
     "codes.\n\n";
@@ -51,9 +49,10 @@ int run(const Options& options) {
       measureLight(kind, seed, seed < options.first + options.compared, add);
     }
   }
-  fmt::print("Light of simulated walls, {} seeds from {} of: {}.\n", options.seeds, options.first,
-             fmt::join(options.rigs, ", "));
-  fmt::print(kMeasures, kDisplayDegrees);
+  std::string kinds;
+  for (const auto& rig : options.rigs) kinds += (kinds.empty() ? "" : ", ") + rig;
+  fmt::print("Light of simulated walls, {} seeds from {} of: {}.\n", options.seeds, options.first, kinds);
+  fmt::print("{}", kMeasures);
   fmt::print("{}", figures.table());
   return options.strict && !figures.met() ? 1 : 0;
 }

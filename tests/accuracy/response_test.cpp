@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -14,11 +13,10 @@
 #include "calib/simulate/rig_generator.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support_calibration/calibrated_rig.h"
+#include "tests/support_calibration/response_error.h"
 
 namespace pixelflex::calib {
 namespace {
-
-constexpr double kFloor = 0.01;  // of white: below it the error is relative to this
 
 /// Responses from the whole range that projectors have.
 void drawResponses(Rig& rig, std::uint32_t seed) {
@@ -33,21 +31,6 @@ void drawResponses(Rig& rig, std::uint32_t seed) {
     projector.vignetting = between(0.2, 0.4);
     projector.lumens *= between(0.85, 1.15);
   }
-}
-
-/// Relative to light, RMS over codes 20 to 235 and the channels.
-double errorOf(const ResponseCurve& curve, const SimulatedWall& room, std::size_t index) {
-  double squares = 0;
-  for (int c = 0; c < 3; ++c) {
-    const double black = room.light(index, c, 0);
-    const double white = room.light(index, c, 1) - black;
-    for (std::size_t code = 20; code <= 235; ++code) {
-      const double truth = (room.light(index, c, static_cast<double>(code) / 255) - black) / white;
-      const double found = curve.light[static_cast<std::size_t>(c)].at(code);
-      squares += std::pow((found - truth) / std::max(truth, kFloor), 2);
-    }
-  }
-  return std::sqrt(squares / (3 * 216));
 }
 
 class ResponseAccuracy : public ::testing::Test {
@@ -130,7 +113,7 @@ TEST_F(ResponseAccuracy, WithinOnePercentAndAHalfOfTheTruth) {
       const auto found = measure(room, i);
       ASSERT_EQ(found.responses.size(), 1U);
       const auto& response = found.responses.at(rig_.projectors[i].name);
-      const double error = errorOf(response.curve, room, i);
+      const double error = responseError(response.curve, room, i);
       const double black = rig_.projectors[i].response.black;
       const double leak = black / (1 - black);
       std::printf("camera gamma %.1f, seed %u, %s: %.2f %% RMS (told %.2f %%), leak %.3f %% of %.3f %%\n", cameraGamma,

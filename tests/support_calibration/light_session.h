@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 
+#include "calib/photometric/response_curve.h"
 #include "calib/simulate/simulated_wall.h"
 #include "tests/support_calibration/calibrated_rig.h"
 
@@ -18,11 +20,15 @@ class LightSession {
   /// Blend and response again. Files of the light before are overwritten: read them first.
   void match(const Blend& blend);
 
+  /// What the camera finds of a projector's response, photographed now. Throws ProcedureError where it finds nothing.
+  [[nodiscard]] ResponseCurve responseByCamera(std::size_t projector);
+
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   [[nodiscard]] const Wall& wall() const { return rig_.wall; }
   [[nodiscard]] const Calibration& calibration() const { return rig_.calibration; }
 
  private:
+  SimulatedWall& room_;
   std::filesystem::path folder_;
   CalibratedRig rig_;
 };
