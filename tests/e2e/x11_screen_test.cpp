@@ -98,12 +98,16 @@ TEST(LocalScreen, FollowsResizes) {
 
 TEST(LocalScreen, TellsThePointersPictureAndPlace) {
   const auto x = startXvfb({800, 600});
-  x->query({"xsetroot", "-cursor_name", "crosshair"});
   const auto mirror = mirrorOf(x->display());
   x->query({"xdotool", "mousemove", "123", "234"});
   ASSERT_TRUE(mirror->pumpUntil([&] { return mirror->last<CursorMoved>() == CursorMoved{123, 234}; }));
   const auto hasShape = [&] { return mirror->last<CursorShape>().value_or(CursorShape{}).size.area() > 0; };
-  ASSERT_TRUE(mirror->pumpUntil(hasShape)) << mirror->summary();
+  // A server that has just started shows no pointer until both have changed.
+  ASSERT_TRUE(mirror->pumpUntil([&] {
+    x->query({"xsetroot", "-cursor_name", mirror->events().size() % 2 == 0 ? "crosshair" : "arrow"});
+    x->query({"xdotool", "mousemove_relative", "1", "1"});
+    return hasShape();
+  })) << mirror->summary();
   const CursorShape crosshair = *mirror->last<CursorShape>();
   EXPECT_EQ(crosshair.rgba.size(), static_cast<std::size_t>(crosshair.size.area()) * 4);
   x->query({"xsetroot", "-cursor_name", "watch"});
