@@ -39,7 +39,7 @@ std::string viewerProgram() {
 }
 
 std::vector<std::string> viewerCommand(const DesktopOptions& options, const DesktopServer& server) {
-  std::vector<std::string> command = {viewerProgram(), options.wall, "unix:" + server.socket().string()};
+  std::vector<std::string> command = {viewerProgram(), options.wall, "unix:" + server.socket().string(), "--resize"};
   command.insert(command.end(), options.viewing.begin(), options.viewing.end());
   return command;
 }

@@ -89,6 +89,13 @@ int main(int argc, char** argv) {
          "thus one and the same; else vnc")
       ->transform(CLI::CheckedTransformer(pixelflex::viewer::kSources))
       ->option_text("vnc|auto");
+  bool resize = false;
+  app.add_flag("--resize", resize,
+               "ask the server for a desktop of the wall's own size, and again after a new calibration");
+  std::string screens = "one";
+  app.add_option("--screens", screens, "with --resize: one screen for the wall, or one for each of its projectors")
+      ->check(CLI::IsMember({"one", "projectors"}))
+      ->capture_default_str();
   app.add_flag("--view-only", options.viewOnly, "send neither pointer nor keys");
   app.add_option("--password-file", options.passwordFile,
                  "the first line is the password, or vncpasswd wrote it; mode 0600. Without it PIXELFLEX_VNC_PASSWORD "
@@ -121,6 +128,8 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     options.settle = std::chrono::milliseconds(settle);
     if (!region.empty()) options.fit.region = pixelflex::viewer::parseRegion(region);
+    using pixelflex::viewer::Resize;
+    if (resize) options.resize = screens == "one" ? Resize::kOneScreen : Resize::kScreenPerProjector;
     options.server = pixelflex::viewer::parseServerAddress(server);
     if (options.server.isXDisplay()) (void)pixelflex::viewer::parseXDisplay(options.server.xDisplay);
     options.security.require = pixelflex::viewer::parseSecurityLevel(require);

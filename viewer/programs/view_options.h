@@ -10,6 +10,9 @@
 
 namespace pixelflex::viewer {
 
+/// What a server is asked to make of its desktop.
+enum class Resize { kNo, kOneScreen, kScreenPerProjector };
+
 /// What the wall shows of a server that is gone: its last picture in any case.
 enum class WhenLost { kDim, kMark, kKeep };
 
@@ -32,6 +35,7 @@ struct ViewOptions {
   std::chrono::milliseconds settle{500};
   std::vector<std::string> projectors;  // empty: all
   FitOptions fit;
+  Resize resize = Resize::kNo;
   bool viewOnly = false;
   std::optional<std::string> passwordFile;
   std::optional<std::string> password;  // out of that file, the environment or a prompt

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "viewer/plan/wall_screens.h"
 #include "viewer/programs/view_security.h"
 #include "viewer/vnc/session.h"
 #include "viewer/x11/local_session.h"
@@ -24,6 +25,7 @@ SessionOptions sessionOptions(const ViewOptions& options) {
           .user = options.user,
           .security = options.security,
           .viewOnly = options.viewOnly,
+          .mayResize = options.resize != Resize::kNo,
           .retry = retryOf(options)};
 }
 
@@ -46,7 +48,8 @@ WallView::WallView(const ViewOptions& options, const WallPlan& wall, devices::Gl
       picture_(renderer_, options.whenLost),
       belt_(wake),
       wake_(wake),
-      source_(openSource()) {
+      source_(openSource()),
+      reloader_(options, wall, wake) {
   // What a screenshot shows is the desktop, as a screenshot taken on the server does.
   if (options.screenshot) renderer_.showCursor(false);
 }
@@ -71,6 +74,7 @@ WallView::Step WallView::step() {
   while (Batch* batch = belt_.take()) {
     if (batch->desktop != desktop_) adopt(batch->desktop);
     renderer_.upload(*batch);
+    updateOpen_ = !batch->completesUpdate;
     if (batch->completesUpdate) {
       ++updates_;
       hasPicture_ = true;
@@ -78,6 +82,7 @@ WallView::Step WallView::step() {
     }
     belt_.release(batch);
   }
+  if (!updateOpen_) adoptNewWall();
   Step step;
   step.plansChanged = std::exchange(plansChanged_, false);
   step.drawn = renderer_.draw();
@@ -91,6 +96,7 @@ void WallView::handle(const SessionEvent& event) {
     connected_ = true;
     // What is shown stays until there is a picture to replace it.
     if (!hasPicture_) adopt(connected->size);
+    requestLayout();
     const std::string notice = securityNotice(options_, connected->security);
     const bool said = hasPicture_ && connected->security.newFingerprint.empty();
     if (!notice.empty() && !said) fmt::print(stderr, "pixelflex-view: {}\n", notice);
@@ -101,6 +107,8 @@ void WallView::handle(const SessionEvent& event) {
       std::ranges::copy(shape->rgba, image.samples().begin());
     }
     picture_.setCursor(std::move(image), {shape->hotX, shape->hotY});
+  } else if (const auto* refused = std::get_if<ResizeRefused>(&event)) {
+    fmt::print(stderr, "pixelflex-view: {}; it is shown scaled\n", refused->message);
   } else if (const auto* moved = std::get_if<CursorMoved>(&event)) {
     picture_.moveCursor({moved->x, moved->y});
   } else if (const auto* lost = std::get_if<Lost>(&event)) {
@@ -134,9 +142,34 @@ void WallView::comeBack() {
 void WallView::adopt(devices::Size desktop) {
   if (desktop == desktop_) return;
   desktop_ = desktop;
-  renderer_.setPlans(wall_.outputsFor(desktop));
-  pointerMap_.emplace(wall_, desktop);
+  reloader_.setDesktop(desktop);
+  show(wall().outputsFor(desktop));
+}
+
+void WallView::show(const std::vector<OutputPlan>& plans) {
+  renderer_.setPlans(plans);
+  pointerMap_.emplace(wall(), desktop_);
   plansChanged_ = true;
+}
+
+// The desktop's pixels stay, so the next frame shows it whole.
+void WallView::adoptNewWall() {
+  auto fresh = reloader_.take();
+  if (!fresh) return;
+  reloaded_ = std::move(fresh->wall);
+  fmt::print(stderr, "pixelflex-view: a new calibration is shown\n");
+  if (desktop_.area() > 0) show(fresh->desktop == desktop_ ? fresh->plans : wall().outputsFor(desktop_));
+  if (connected_) requestLayout();
+}
+
+void WallView::requestLayout() {
+  if (options_.resize == Resize::kNo) return;
+  ScreenLayout layout{wall().desktop(), {boxOf(wall().desktop())}};
+  if (options_.resize == Resize::kScreenPerProjector) layout.screens = screensOfProjectors(wall());
+  const bool fits = desktop_ == layout.desktop;
+  if (!source_->requestLayout(std::move(layout)) && !fits) {
+    fmt::print(stderr, "pixelflex-view: this desktop cannot be asked for another size; it is shown scaled\n");
+  }
 }
 
 void WallView::point(glm::ivec2 pointInDesktop, std::uint8_t buttons) {

@@ -13,6 +13,7 @@
 #include "viewer/plan/wall_plan.h"
 #include "viewer/programs/lost_picture.h"
 #include "viewer/programs/view_options.h"
+#include "viewer/programs/wall_reloader.h"
 #include "viewer/renderer/wall_renderer.h"
 #include "viewer/tiles/frame_belt.h"
 #include "viewer/vnc/desktop_source.h"
@@ -57,7 +58,8 @@ class WallView {
   [[nodiscard]] devices::Size desktop() const { return desktop_; }
 
   [[nodiscard]] WallRenderer& renderer() { return renderer_; }
-  [[nodiscard]] const WallPlan& wall() const { return wall_; }
+  /// The one that is shown: the one given, or what a new calibration has put in its place, with the same projectors.
+  [[nodiscard]] const WallPlan& wall() const { return reloaded_ ? *reloaded_ : wall_; }
   /// Null before the first connection.
   [[nodiscard]] const PointerMap* pointerMap() const { return pointerMap_ ? &*pointerMap_ : nullptr; }
 
@@ -72,15 +74,20 @@ class WallView {
   void comeBack();
   [[nodiscard]] std::unique_ptr<DesktopSource> openSource();
   void adopt(devices::Size desktop);
+  void show(const std::vector<OutputPlan>& plans);
+  void adoptNewWall();
+  void requestLayout();
 
   const ViewOptions& options_;
   const WallPlan& wall_;
+  std::shared_ptr<const WallPlan> reloaded_;
   WallRenderer renderer_;
   LostPicture picture_;
   FrameBelt belt_;
   std::function<void()> wake_;
   bool direct_ = false;  // the X server behind the VNC server that was asked for
   std::unique_ptr<DesktopSource> source_;
+  WallReloader reloader_;
   std::optional<PointerMap> pointerMap_;
   devices::Size desktop_;
   std::string desktopName_;
@@ -88,6 +95,7 @@ class WallView {
   std::optional<Clock::time_point> lostSince_;
   bool connected_ = false;
   bool plansChanged_ = false;
+  bool updateOpen_ = false;  // half of one is uploaded
   std::uint64_t updates_ = 0;
   Clock::time_point lastChange_ = Clock::now();
 };

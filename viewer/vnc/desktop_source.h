@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "viewer/vnc/screen_layout.h"
 #include "viewer/vnc/session_event.h"
 
 namespace pixelflex::viewer {
@@ -31,6 +32,13 @@ class DesktopSource {
   virtual void sendKey(std::uint32_t keysym, bool down) = 0;
   /// UTF-8.
   virtual void sendClipboard(std::string text) = 0;
+
+  /// Asks the connected desktop for a size and screens: a Resized or a ResizeRefused event follows, or nothing when it
+  /// has them already. False when this kind of desktop cannot be asked.
+  [[nodiscard]] virtual bool requestLayout(ScreenLayout layout) {
+    (void)layout;
+    return false;
+  }
 
   /// Ends the connection without a Closed event and returns at once. Input is ignored from here on.
   virtual void stop() = 0;

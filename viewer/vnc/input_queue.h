@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "viewer/vnc/screen_layout.h"
+
 namespace pixelflex::viewer {
 
 struct PointerInput {
@@ -25,7 +27,12 @@ struct ClipboardInput {
   bool operator==(const ClipboardInput&) const = default;
 };
 
-using Input = std::variant<PointerInput, KeyInput, ClipboardInput>;
+struct LayoutInput {
+  ScreenLayout layout;
+  bool operator==(const LayoutInput&) const = default;
+};
+
+using Input = std::variant<PointerInput, KeyInput, ClipboardInput, LayoutInput>;
 
 /// Input on its way to the server, in order. A motion replaces a motion just before it, so that a slow link does
 /// not lag behind the hand; where a button goes down or up is never lost. Only the newest clipboard waits. Not

@@ -11,6 +11,7 @@
 #include "viewer/vnc/event_queue.h"
 #include "viewer/vnc/rfb_handshake.h"
 #include "viewer/vnc/rfb_messages.h"
+#include "viewer/vnc/rfb_resize.h"
 #include "viewer/vnc/rfb_state.h"
 #include "viewer/vnc/rfb_update.h"
 #include "viewer/vnc/text_encoding.h"
@@ -45,7 +46,7 @@ void adopt(RfbState& rfb, Handshake handshake) {
 
 void requestFirstPicture(RfbState& rfb) {
   rfb.write(setPixelFormatMessage());
-  rfb.write(setEncodingsMessage(rfb.options.lossless));
+  rfb.write(setEncodingsMessage(rfb.options.lossless, rfb.options.mayResize));
   rfb.requestUpdate(false);
 }
 
@@ -164,6 +165,9 @@ void RfbClient::send(const Input& input) {
     std::string text = latin1FromUtf8(clipboard->text);
     text.resize(std::min(text.size(), kMaxSentClipboardBytes));
     state_->write(clipboardMessage(text));
+  } else if (const auto* layout = std::get_if<LayoutInput>(&input)) {
+    state_->wantedLayout = layout->layout;
+    requestWantedLayout(*state_);
   }
 }
 
@@ -179,7 +183,7 @@ void RfbClient::giveUp() const {
 void RfbClient::claimPointer() {
   if (!state_->pointerDrawn || state_->pointerUsed) return;
   send(PointerInput{state_->pixelsSize.width / 2, state_->pixelsSize.height / 2, 0});
-  state_->write(setEncodingsMessage(state_->options.lossless));
+  state_->write(setEncodingsMessage(state_->options.lossless, state_->options.mayResize));
 }
 
 }  // namespace pixelflex::viewer

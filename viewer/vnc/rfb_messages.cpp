@@ -40,8 +40,8 @@ std::vector<std::uint8_t> setPixelFormatMessage() {
           0,  8,   16, 0,   0, 0};   // shifts of red, green, blue; padding
 }
 
-std::vector<std::uint8_t> setEncodingsMessage(bool lossless) {
-  // No ExtendedDesktopSize: libvncclient ignores it for screens with id 0 and then refuses the next rectangle. No raw:
+std::vector<std::uint8_t> setEncodingsMessage(bool lossless, bool mayResize) {
+  // No raw:
   // every server falls back to it anyway, but libvncserver sends it in whole rows that overrun its buffer beyond 8192
   // pixels. Nothing else that libvncclient decodes: each decoder is one more door for a hostile server.
   // Compression level 1 also switches off TigerVNC's search for pixels that did not change.
@@ -58,6 +58,7 @@ std::vector<std::uint8_t> setEncodingsMessage(bool lossless) {
                                       kVmwareCursorPositionEncoding,
                                       kFenceEncoding,
                                       kContinuousUpdatesEncoding};
+  if (mayResize) encodings.push_back(kExtendedDesktopSizeEncoding);
   if (!lossless) encodings.push_back(kQuality8);
   std::vector<std::uint8_t> message{2, 0};  // type, padding
   appendNumber(message, static_cast<std::uint32_t>(encodings.size()), 2);

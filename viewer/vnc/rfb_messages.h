@@ -20,6 +20,7 @@ inline constexpr std::int32_t kLastRectEncoding = -224;
 inline constexpr std::int32_t kPointerPosEncoding = -232;
 inline constexpr std::int32_t kRichCursorEncoding = -239;
 inline constexpr std::int32_t kXCursorEncoding = -240;
+inline constexpr std::int32_t kExtendedDesktopSizeEncoding = -308;
 inline constexpr std::int32_t kFenceEncoding = -312;
 inline constexpr std::int32_t kContinuousUpdatesEncoding = -313;
 inline constexpr std::int32_t kCursorWithAlphaEncoding = -314;
@@ -28,8 +29,9 @@ inline constexpr std::int32_t kVmwareCursorPositionEncoding = 0x574d5666;
 /// Client to server: 32 bits a pixel with red, green, blue in bytes 0, 1, 2 of memory, as textures want them.
 [[nodiscard]] std::vector<std::uint8_t> setPixelFormatMessage();
 
-/// Client to server: the encodings, best first. Lossless keeps the server from JPEG.
-[[nodiscard]] std::vector<std::uint8_t> setEncodingsMessage(bool lossless);
+/// Client to server: the encodings, best first. Lossless keeps the server from JPEG; `mayResize` makes it
+/// tell of its screens, without which it takes no wishes for them.
+[[nodiscard]] std::vector<std::uint8_t> setEncodingsMessage(bool lossless, bool mayResize = false);
 
 /// Client to server: the upper left part of the desktop, of this size; what has changed there, or everything.
 [[nodiscard]] std::vector<std::uint8_t> updateRequestMessage(bool incremental, devices::Size size);

@@ -19,6 +19,12 @@ struct _rfbClient;  // NOLINT(bugprone-reserved-identifier): libvncclient's name
 
 namespace pixelflex::viewer {
 
+struct RfbScreen {
+  std::uint32_t id = 0;
+  Box box;
+  bool operator==(const RfbScreen&) const = default;
+};
+
 /// A libvncclient client on a connected socket, and what it and its reader know.
 struct RfbState {
   struct Free {
@@ -71,6 +77,8 @@ struct RfbState {
   bool pointerUsed = false;   // this session has put it somewhere
   bool pointerDrawn = false;  // by the server, into the desktop
   bool continuousUpdates = false;
+  std::optional<std::vector<RfbScreen>> screens;  // once the server has told of them
+  std::optional<ScreenLayout> wantedLayout;       // not asked for yet
   std::vector<SessionEvent> events;
 
  private:

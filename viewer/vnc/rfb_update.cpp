@@ -10,6 +10,7 @@
 #include "viewer/vnc/event_queue.h"
 #include "viewer/vnc/rfb_messages.h"
 #include "viewer/vnc/rfb_pointer.h"
+#include "viewer/vnc/rfb_resize.h"
 
 namespace pixelflex::viewer {
 namespace {
@@ -92,6 +93,10 @@ void resize(RfbState& rfb, devices::Size size) {
   if (rfb.continuousUpdates) rfb.enableContinuousUpdates();
 }
 
+[[noreturn]] void refuseEncoding(const RfbState& rfb, std::int32_t encoding) {
+  rfb.refuse("sent a rectangle in encoding " + std::to_string(encoding) + ", which was not asked for");
+}
+
 // False after the last rectangle of an update that did not say how many there are.
 bool readAny(RfbState& rfb, const Rectangle& rect) {
   switch (rect.encoding) {
@@ -103,6 +108,10 @@ bool readAny(RfbState& rfb, const Rectangle& rect) {
       break;
     case kDesktopSizeEncoding:
       resize(rfb, rect.size);
+      break;
+    case kExtendedDesktopSizeEncoding:
+      if (!rfb.options.mayResize) refuseEncoding(rfb, rect.encoding);
+      if (readExtendedDesktopSize(rfb, rect.x, rect.y, rect.size)) resize(rfb, rect.size);
       break;
     case kRichCursorEncoding:
       readRichCursor(rfb, rect.size, rect.x, rect.y);
@@ -120,7 +129,7 @@ bool readAny(RfbState& rfb, const Rectangle& rect) {
     case kLastRectEncoding:
       return false;
     default:
-      rfb.refuse("sent a rectangle in encoding " + std::to_string(rect.encoding) + ", which was not asked for");
+      refuseEncoding(rfb, rect.encoding);
   }
   return true;
 }
@@ -137,6 +146,7 @@ void readUpdate(RfbState& rfb) {
   while (left > 0 && readAny(rfb, readRectangle(rfb))) --left;
   rfb.insideUpdate = false;
   rfb.updateFinished = true;
+  noteUpdateForResize(rfb);
 }
 
 }  // namespace pixelflex::viewer

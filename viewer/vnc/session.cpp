@@ -45,7 +45,10 @@ bool takesMore(int socket) {
 class Session::Worker {
  public:
   Worker(SessionOptions options, FrameBelt& belt, std::function<void()> wake)
-      : options_(std::move(options)), belt_(belt), desk_(!options_.viewOnly, std::move(wake)) {
+      : mayResize_(options.mayResize && !options.viewOnly),
+        options_(std::move(options)),
+        belt_(belt),
+        desk_(!options_.viewOnly, std::move(wake)) {
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
   }
   ~Worker() { stop(); }
@@ -53,6 +56,12 @@ class Session::Worker {
   Worker& operator=(const Worker&) = delete;
 
   SessionDesk& desk() { return desk_; }
+
+  bool requestLayout(ScreenLayout layout) {
+    if (!mayResize_) return false;
+    desk_.add(LayoutInput{std::move(layout)});
+    return true;
+  }
 
   void stop() {
     thread_.request_stop();
@@ -168,6 +177,7 @@ class Session::Worker {
     return true;
   }
 
+  const bool mayResize_;
   SessionOptions options_;  // the thread's own once it runs
   FrameBelt& belt_;
   SessionDesk desk_;
@@ -199,6 +209,10 @@ void Session::sendKey(std::uint32_t keysym, bool down) {
 
 void Session::sendClipboard(std::string text) {
   worker_->desk().add(ClipboardInput{std::move(text)});
+}
+
+bool Session::requestLayout(ScreenLayout layout) {
+  return worker_->requestLayout(std::move(layout));
 }
 
 void Session::stop() {

@@ -32,6 +32,8 @@ struct SessionOptions {
   SecurityOptions security;
   /// Drops pointer, keys and clipboard before they reach the server.
   bool viewOnly = false;
+  /// requestLayout() works, unless only viewing.
+  bool mayResize = false;
   /// Keeps other viewers connected.
   bool shared = true;
   /// False: the server may send JPEG, which saves bandwidth and alters pixels.
@@ -63,6 +65,7 @@ class Session : public DesktopSource {
   void sendKey(std::uint32_t keysym, bool down) override;
   /// What Latin-1 cannot hold becomes a question mark. Texts beyond 256 KiB are cut there.
   void sendClipboard(std::string text) override;
+  [[nodiscard]] bool requestLayout(ScreenLayout layout) override;
   void stop() override;
 
  private:

@@ -23,6 +23,12 @@ struct Resized {
   bool operator==(const Resized&) const = default;
 };
 
+/// The desktop keeps its size although another was asked for.
+struct ResizeRefused {
+  std::string message;  // for people
+  bool operator==(const ResizeRefused&) const = default;
+};
+
 /// The pointer's picture, which is not part of the desktop's: whoever shows the desktop draws it on top.
 struct CursorShape {
   devices::Size size;              // 0x0: hidden, or TigerVNC draws it into the desktop, see SessionOptions
@@ -74,6 +80,7 @@ struct Closed {
   bool operator==(const Closed&) const = default;
 };
 
-using SessionEvent = std::variant<Connected, Resized, CursorShape, CursorMoved, Bell, Clipboard, Lost, Closed>;
+using SessionEvent =
+    std::variant<Connected, Resized, ResizeRefused, CursorShape, CursorMoved, Bell, Clipboard, Lost, Closed>;
 
 }  // namespace pixelflex::viewer
