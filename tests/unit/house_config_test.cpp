@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -56,10 +57,37 @@ TEST(HouseConfig, EveryFileBelongsToARigAWallOrAPicture) {
   for (const auto& file : filesBelow(configFolder())) {
     const std::string path = fs::relative(file, configFolder()).string();
     const bool picture = path.starts_with("pictures/");
-    EXPECT_TRUE(path == "README.md" || path.starts_with("rigs/") || path.starts_with("walls/") || picture) << path;
+    EXPECT_TRUE(path == "README.md" || path.starts_with("rigs/") || path.starts_with("walls/") ||
+                path.starts_with("session/") || picture)
+        << path;
     if (picture) {
       EXPECT_NO_THROW((void)devices::readPng8(file)) << path;
     }
+  }
+}
+
+std::vector<std::string> linesOf(const fs::path& file) {
+  std::ifstream stream(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(HouseConfig, TheSessionsFilesSayWhatIsStarted) {
+  using ::testing::Contains;
+  const auto unit = linesOf(configFolder() / "session/pixelflex.service.in");
+  for (const auto* line :
+       {"[Unit]", "[Service]", "[Install]", "ExecStart=@prefix@/bin/pixelflex $PIXELFLEX_ARGUMENTS",
+        "Environment=\"PIXELFLEX_ARGUMENTS=desktop %h/wall\"", "WantedBy=graphical-session.target"}) {
+    EXPECT_THAT(unit, Contains(line));
+  }
+  const auto entry = linesOf(configFolder() / "session/pixelflex.desktop.in");
+  ASSERT_FALSE(entry.empty());
+  EXPECT_EQ(entry.front(), "[Desktop Entry]");
+  // As the specification has it: a quoted argument's quotes and dollars carry two backslashes.
+  const std::string exec = R"(Exec=sh -c "exec @prefix@/bin/pixelflex desktop \\"\\$HOME/wall\\"")";
+  for (const std::string line : {"Type=Application", "Name=PixelFlex", "Terminal=false", exec.c_str()}) {
+    EXPECT_THAT(entry, Contains(line));
   }
 }
 
