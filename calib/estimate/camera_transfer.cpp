@@ -54,13 +54,4 @@ CameraResponse nearestStandard(const CameraResponse& measured) {
   return measured;
 }
 
-devices::ImageF linearised(const devices::Image8& photo, const CameraResponse& camera) {
-  assert(photo.channels() == 3);
-  devices::ImageF light(photo.size(), 3);
-  for (std::size_t i = 0; i < light.samples().size(); ++i) {
-    light.samples()[i] = static_cast<float>(camera.light[i % 3].at(photo.samples()[i]));
-  }
-  return light;
-}
-
 }  // namespace pixelflex::calib
