@@ -15,9 +15,9 @@ add_library(vnc_entry STATIC fuzz/vnc_entry.cpp)
 target_link_libraries(vnc_entry PRIVATE pixelflex_options PUBLIC pixelflex_vnc)
 
 pixelflex_test(vnc_test LABEL unit TIMEOUT 120
-  SOURCES unit/vnc_address_test.cpp unit/vnc_corpus_test.cpp unit/vnc_failure_test.cpp unit/vnc_hostile_cases_test.cpp
+  SOURCES unit/vnc_address_test.cpp unit/vnc_clipboard_test.cpp unit/vnc_corpus_test.cpp unit/vnc_failure_test.cpp unit/vnc_hostile_cases_test.cpp
     unit/vnc_hostile_test.cpp unit/vnc_jpeg_test.cpp unit/vnc_pieces_test.cpp unit/vnc_reconnect_test.cpp unit/vnc_security_test.cpp unit/vnc_session_test.cpp
-  LINK pixelflex_test_support vnc_entry JPEG::JPEG)
+  LINK pixelflex_test_support vnc_entry JPEG::JPEG ZLIB::ZLIB)
 
 # What a server may say, by clang++ (preset fuzz): ./vnc_fuzz CORPUS -max_total_time=60
 if(PIXELFLEX_FUZZ)

@@ -172,7 +172,7 @@ void WallView::requestLayout() {
   }
 }
 
-void WallView::point(glm::ivec2 pointInDesktop, std::uint8_t buttons) {
+void WallView::point(glm::ivec2 pointInDesktop, std::uint16_t buttons) {
   picture_.moveCursor(pointInDesktop);
   source_->sendPointer(pointInDesktop.x, pointInDesktop.y, buttons);
 }

@@ -64,7 +64,7 @@ class WallView {
   [[nodiscard]] const PointerMap* pointerMap() const { return pointerMap_ ? &*pointerMap_ : nullptr; }
 
   /// Moves the pointer there, locally at once, and tells the server.
-  void point(glm::ivec2 pointInDesktop, std::uint8_t buttons);
+  void point(glm::ivec2 pointInDesktop, std::uint16_t buttons);
   void key(std::uint32_t keysym, bool down) { source_->sendKey(keysym, down); }
   void markAll() { renderer_.markAll(); }
 

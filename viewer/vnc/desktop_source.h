@@ -25,9 +25,10 @@ class DesktopSource {
   /// The events since the last call, oldest first.
   [[nodiscard]] virtual std::vector<SessionEvent> takeEvents() = 0;
 
-  /// Desktop pixels; bit 0 of `buttons` is the left button, bits 3 and 4 the wheel. A motion that has not been sent yet
-  /// is replaced by the next one with the same buttons. Outside the desktop the position is clamped.
-  virtual void sendPointer(int x, int y, std::uint8_t buttons) = 0;
+  /// Desktop pixels; bit 0 of `buttons` is the left button, bits 3 to 6 the wheel, bits 7 and 8 the side
+  /// buttons, which not all servers take. A motion that has not been sent yet is replaced by the next one with the same
+  /// buttons. Outside the desktop the position is clamped.
+  virtual void sendPointer(int x, int y, std::uint16_t buttons) = 0;
   /// An X11 keysym.
   virtual void sendKey(std::uint32_t keysym, bool down) = 0;
   /// UTF-8.

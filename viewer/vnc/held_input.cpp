@@ -7,7 +7,7 @@ namespace pixelflex::viewer {
 bool HeldInput::admit(Input& input) {
   if (auto* pointer = std::get_if<PointerInput>(&input)) {
     staleButtons_ &= pointer->buttons;
-    pointer->buttons = static_cast<std::uint8_t>(pointer->buttons & ~staleButtons_);
+    pointer->buttons = static_cast<std::uint16_t>(pointer->buttons & ~staleButtons_);
     pointer_ = *pointer;
     pointed_ = true;
   } else if (const auto* key = std::get_if<KeyInput>(&input)) {

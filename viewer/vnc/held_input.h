@@ -26,7 +26,7 @@ class HeldInput {
   std::set<std::uint32_t> down_;    // as this connection's server knows it
   std::set<std::uint32_t> stale_;   // down here, but not to be seen by the server
   std::set<std::uint32_t> broken_;  // was down on a connection that broke
-  std::uint8_t staleButtons_ = 0;
+  std::uint16_t staleButtons_ = 0;
   bool pointed_ = false;
   PointerInput pointer_;  // the last one sent
 };

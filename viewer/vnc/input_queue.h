@@ -12,7 +12,7 @@ namespace pixelflex::viewer {
 
 struct PointerInput {
   int x = 0, y = 0;
-  std::uint8_t buttons = 0;
+  std::uint16_t buttons = 0;  // one bit each, X button 1 lowest
   bool operator==(const PointerInput&) const = default;
 };
 
@@ -46,7 +46,7 @@ class InputQueue {
   void addPointer(const PointerInput& pointer);
 
   std::vector<Input> waiting_;
-  std::uint8_t buttons_ = 0;   // of the last pointer input, taken or not
+  std::uint16_t buttons_ = 0;  // of the last pointer input, taken or not
   bool lastIsMotion_ = false;  // of waiting_
 };
 

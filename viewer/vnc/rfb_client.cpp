@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "viewer/vnc/event_queue.h"
+#include "viewer/vnc/rfb_clipboard.h"
 #include "viewer/vnc/rfb_handshake.h"
 #include "viewer/vnc/rfb_messages.h"
 #include "viewer/vnc/rfb_resize.h"
@@ -18,9 +19,6 @@
 
 namespace pixelflex::viewer {
 namespace {
-
-constexpr std::uint32_t kMaxClipboardBytes = 1u << 20;      // from the server
-constexpr std::size_t kMaxSentClipboardBytes = 256u << 10;  // what TigerVNC's server accepts
 
 enum ServerMessage : std::uint8_t {
   kFramebufferUpdate = 0,
@@ -44,9 +42,15 @@ void adopt(RfbState& rfb, Handshake handshake) {
   rfb.resize(handshake.desktop);
 }
 
+void sendEncodings(const RfbState& rfb) {
+  rfb.write(setEncodingsMessage({.lossless = rfb.options.lossless,
+                                 .mayResize = rfb.options.mayResize,
+                                 .clipboard = rfb.options.clipboardLimit > 0}));
+}
+
 void requestFirstPicture(RfbState& rfb) {
   rfb.write(setPixelFormatMessage());
-  rfb.write(setEncodingsMessage(rfb.options.lossless, rfb.options.mayResize));
+  sendEncodings(rfb);
   rfb.requestUpdate(false);
 }
 
@@ -64,20 +68,6 @@ void answerFence(RfbState& rfb) {
   if (payload.size() > kMaxFenceBytes) rfb.refuse("sent a fence that is too long");
   rfb.read(payload);
   if ((flags & kFenceRequest) != 0) rfb.write(fenceMessage(flags & kFenceBlocks, payload));
-}
-
-// libvncclient would end the session over a text beyond its limit; here such a text is left out.
-void readClipboard(RfbState& rfb) {
-  std::array<std::uint8_t, 7> header{};
-  rfb.read(header);
-  const std::uint32_t length = bigEndian(std::span(header).last(4));
-  if (length > kMaxClipboardBytes) {
-    rfb.discard(length);
-    return;
-  }
-  std::string text(length, '\0');
-  rfb.read({reinterpret_cast<std::uint8_t*>(text.data()), text.size()});
-  appendEvent(rfb.events, Clipboard{utf8FromLatin1(text)});
 }
 
 // Colour maps mean nothing to a true-colour rfb.client, but their bytes must go.
@@ -158,13 +148,12 @@ void RfbClient::send(const Input& input) {
   if (const auto* pointer = std::get_if<PointerInput>(&input)) {
     state_->pointerUsed = true;
     state_->write(pointerMessage(std::clamp(pointer->x, 0, desktop.width - 1),
-                                 std::clamp(pointer->y, 0, desktop.height - 1), pointer->buttons));
+                                 std::clamp(pointer->y, 0, desktop.height - 1), pointer->buttons,
+                                 state_->extendedButtons));
   } else if (const auto* key = std::get_if<KeyInput>(&input)) {
     state_->write(keyMessage(key->keysym, key->down));
   } else if (const auto* clipboard = std::get_if<ClipboardInput>(&input)) {
-    std::string text = latin1FromUtf8(clipboard->text);
-    text.resize(std::min(text.size(), kMaxSentClipboardBytes));
-    state_->write(clipboardMessage(text));
+    offerClipboard(*state_, clipboard->text);
   } else if (const auto* layout = std::get_if<LayoutInput>(&input)) {
     state_->wantedLayout = layout->layout;
     requestWantedLayout(*state_);
@@ -183,7 +172,7 @@ void RfbClient::giveUp() const {
 void RfbClient::claimPointer() {
   if (!state_->pointerDrawn || state_->pointerUsed) return;
   send(PointerInput{state_->pixelsSize.width / 2, state_->pixelsSize.height / 2, 0});
-  state_->write(setEncodingsMessage(state_->options.lossless, state_->options.mayResize));
+  sendEncodings(*state_);
 }
 
 }  // namespace pixelflex::viewer

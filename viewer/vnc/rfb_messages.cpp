@@ -40,7 +40,7 @@ std::vector<std::uint8_t> setPixelFormatMessage() {
           0,  8,   16, 0,   0, 0};   // shifts of red, green, blue; padding
 }
 
-std::vector<std::uint8_t> setEncodingsMessage(bool lossless, bool mayResize) {
+std::vector<std::uint8_t> setEncodingsMessage(const EncodingWishes& wishes) {
   // No raw:
   // every server falls back to it anyway, but libvncserver sends it in whole rows that overrun its buffer beyond 8192
   // pixels. Nothing else that libvncclient decodes: each decoder is one more door for a hostile server.
@@ -57,9 +57,11 @@ std::vector<std::uint8_t> setEncodingsMessage(bool lossless, bool mayResize) {
                                       kPointerPosEncoding,
                                       kVmwareCursorPositionEncoding,
                                       kFenceEncoding,
-                                      kContinuousUpdatesEncoding};
-  if (mayResize) encodings.push_back(kExtendedDesktopSizeEncoding);
-  if (!lossless) encodings.push_back(kQuality8);
+                                      kContinuousUpdatesEncoding,
+                                      kExtendedMouseButtonsEncoding};
+  if (wishes.mayResize) encodings.push_back(kExtendedDesktopSizeEncoding);
+  if (wishes.clipboard) encodings.push_back(kExtendedClipboardEncoding);
+  if (!wishes.lossless) encodings.push_back(kQuality8);
   std::vector<std::uint8_t> message{2, 0};  // type, padding
   appendNumber(message, static_cast<std::uint32_t>(encodings.size()), 2);
   for (const std::int32_t encoding : encodings) appendNumber(message, static_cast<std::uint32_t>(encoding), 4);
@@ -86,9 +88,14 @@ std::vector<std::uint8_t> fenceMessage(std::uint32_t flags, std::span<const std:
   return message;
 }
 
-std::vector<std::uint8_t> pointerMessage(int x, int y, std::uint8_t buttons) {
-  std::vector<std::uint8_t> message{5, buttons};
+std::vector<std::uint8_t> pointerMessage(int x, int y, std::uint16_t buttons, bool extended) {
+  constexpr unsigned kPlainButtons = 0x7f;
+  constexpr unsigned kMore = 0x80;  // a byte with the others follows
+  const unsigned others = extended ? buttons >> 7 & 0xffu : 0;
+  std::vector<std::uint8_t> message{5};
+  appendNumber(message, (buttons & (extended ? kPlainButtons : 0xffu)) | (others != 0 ? kMore : 0), 1);
   appendTwo(message, x, y);
+  if (others != 0) appendNumber(message, others, 1);
   return message;
 }
 

@@ -24,14 +24,21 @@ inline constexpr std::int32_t kExtendedDesktopSizeEncoding = -308;
 inline constexpr std::int32_t kFenceEncoding = -312;
 inline constexpr std::int32_t kContinuousUpdatesEncoding = -313;
 inline constexpr std::int32_t kCursorWithAlphaEncoding = -314;
+inline constexpr std::int32_t kExtendedMouseButtonsEncoding = -316;
+inline constexpr std::int32_t kExtendedClipboardEncoding = static_cast<std::int32_t>(0xc0a1e5ce);
 inline constexpr std::int32_t kVmwareCursorPositionEncoding = 0x574d5666;
 
 /// Client to server: 32 bits a pixel with red, green, blue in bytes 0, 1, 2 of memory, as textures want them.
 [[nodiscard]] std::vector<std::uint8_t> setPixelFormatMessage();
 
-/// Client to server: the encodings, best first. Lossless keeps the server from JPEG; `mayResize` makes it
-/// tell of its screens, without which it takes no wishes for them.
-[[nodiscard]] std::vector<std::uint8_t> setEncodingsMessage(bool lossless, bool mayResize = false);
+struct EncodingWishes {
+  bool lossless = true;    // keeps the server from JPEG
+  bool mayResize = false;  // it tells of its screens, without which it takes no wishes for them
+  bool clipboard = false;  // the extended one
+};
+
+/// Client to server: the encodings, best first.
+[[nodiscard]] std::vector<std::uint8_t> setEncodingsMessage(const EncodingWishes& wishes);
 
 /// Client to server: the upper left part of the desktop, of this size; what has changed there, or everything.
 [[nodiscard]] std::vector<std::uint8_t> updateRequestMessage(bool incremental, devices::Size size);
@@ -43,7 +50,8 @@ inline constexpr std::int32_t kVmwareCursorPositionEncoding = 0x574d5666;
 [[nodiscard]] std::vector<std::uint8_t> fenceMessage(std::uint32_t flags, std::span<const std::uint8_t> payload);
 
 /// Client to server: input. The position is in desktop pixels, the keysym is X11's, the text Latin-1.
-[[nodiscard]] std::vector<std::uint8_t> pointerMessage(int x, int y, std::uint8_t buttons);
+/// Buttons beyond the seventh need a server that said that it takes them.
+[[nodiscard]] std::vector<std::uint8_t> pointerMessage(int x, int y, std::uint16_t buttons, bool extended);
 [[nodiscard]] std::vector<std::uint8_t> keyMessage(std::uint32_t keysym, bool down);
 [[nodiscard]] std::vector<std::uint8_t> clipboardMessage(std::string_view latin1);
 

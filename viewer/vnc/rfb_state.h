@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "viewer/tiles/region.h"
+#include "viewer/vnc/clipboard_messages.h"
 #include "viewer/vnc/rfb_failure.h"
 #include "viewer/vnc/rfb_log.h"
 #include "viewer/vnc/session.h"
@@ -79,6 +80,9 @@ struct RfbState {
   bool continuousUpdates = false;
   std::optional<std::vector<RfbScreen>> screens;  // once the server has told of them
   std::optional<ScreenLayout> wantedLayout;       // not asked for yet
+  bool extendedButtons = false;                   // it takes buttons beyond the seventh
+  std::optional<ClipboardCaps> clipboardCaps;     // of a server with the Extended Clipboard
+  std::optional<std::string> offeredText;         // the last text copied here, UTF-8
   std::vector<SessionEvent> events;
 
  private:

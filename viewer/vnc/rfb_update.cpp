@@ -126,6 +126,9 @@ bool readAny(RfbState& rfb, const Rectangle& rect) {
     case kVmwareCursorPositionEncoding:
       appendEvent(rfb.events, CursorMoved{rect.x, rect.y});
       break;
+    case kExtendedMouseButtonsEncoding:
+      rfb.extendedButtons = true;
+      break;
     case kLastRectEncoding:
       return false;
     default:

@@ -199,7 +199,7 @@ std::vector<SessionEvent> Session::takeEvents() {
   return worker_->desk().takeEvents();
 }
 
-void Session::sendPointer(int x, int y, std::uint8_t buttons) {
+void Session::sendPointer(int x, int y, std::uint16_t buttons) {
   worker_->desk().add(PointerInput{x, y, buttons});
 }
 

@@ -34,6 +34,9 @@ struct SessionOptions {
   bool viewOnly = false;
   /// requestLayout() works, unless only viewing.
   bool mayResize = false;
+  /// The longest text that is taken from the server's clipboard or offered to it, in bytes; longer ones are left out.
+  /// 0: no clipboard.
+  std::size_t clipboardLimit = std::size_t{1} << 20;
   /// Keeps other viewers connected.
   bool shared = true;
   /// False: the server may send JPEG, which saves bandwidth and alters pixels.
@@ -61,9 +64,10 @@ class Session : public DesktopSource {
   ~Session() override;
 
   [[nodiscard]] std::vector<SessionEvent> takeEvents() override;
-  void sendPointer(int x, int y, std::uint8_t buttons) override;
+  void sendPointer(int x, int y, std::uint16_t buttons) override;
   void sendKey(std::uint32_t keysym, bool down) override;
-  /// What Latin-1 cannot hold becomes a question mark. Texts beyond 256 KiB are cut there.
+  /// To servers without the Extended Clipboard it goes as Latin-1: what that cannot hold becomes a question mark, and
+  /// texts beyond 256 KiB stay here.
   void sendClipboard(std::string text) override;
   [[nodiscard]] bool requestLayout(ScreenLayout layout) override;
   void stop() override;

@@ -65,4 +65,24 @@ std::string utf8FromEither(std::string_view text) {
   return std::string(text);
 }
 
+std::string withPlainLineEnds(std::string_view text) {
+  std::string plain;
+  plain.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n') continue;
+    plain.push_back(text[i] == '\r' ? '\n' : text[i]);
+  }
+  return plain;
+}
+
+std::string withCrLf(std::string_view text) {
+  std::string lines;
+  lines.reserve(text.size());
+  for (const char c : withPlainLineEnds(text)) {
+    if (c == '\n') lines.push_back('\r');
+    lines.push_back(c);
+  }
+  return lines;
+}
+
 }  // namespace pixelflex::viewer

@@ -14,4 +14,8 @@ namespace pixelflex::viewer {
 /// Desktop names are UTF-8 from some servers and Latin-1 from others: kept when they are well-formed UTF-8.
 [[nodiscard]] std::string utf8FromEither(std::string_view text);
 
+/// Line ends as RFB's Extended Clipboard has them (CR LF), and as X has them (LF). A lone CR counts as one.
+[[nodiscard]] std::string withCrLf(std::string_view text);
+[[nodiscard]] std::string withPlainLineEnds(std::string_view text);
+
 }  // namespace pixelflex::viewer
