@@ -21,3 +21,6 @@ find_package(X11 REQUIRED)
 pixelflex_test(display_window_test LABEL e2e SOURCES gl/window_test.cpp gl/x_server.cpp
   LINK pixelflex_display PkgConfig::EPOXY X11::X11)
 pixelflex_test(renderer_room_view_test LABEL gl SOURCES gl/room_view_test.cpp LINK pixelflex_renderer PkgConfig::EPOXY)
+pkg_check_modules(XCB_SAVER REQUIRED IMPORTED_TARGET xcb xcb-screensaver)
+pixelflex_test(display_clipboard_test LABEL e2e SOURCES gl/clipboard_test.cpp gl/x_server.cpp support/temporary_folder.cpp
+  LINK pixelflex_display X11::X11 PkgConfig::XCB_SAVER)

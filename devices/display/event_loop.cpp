@@ -55,19 +55,20 @@ void EventLoop::wait(std::optional<std::chrono::duration<double>> timeout) {
   } else {
     glfwWaitEvents();
   }
-  rethrow();
+  finish();
 }
 
 void EventLoop::poll() {
   glfwPollEvents();
-  rethrow();
+  finish();
 }
 
 void EventLoop::wake() {
   glfwPostEmptyEvent();
 }
 
-void EventLoop::rethrow() {
+void EventLoop::finish() {
+  for (const auto& [owner, task] : tasks_) task();
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
 }
 

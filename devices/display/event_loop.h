@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <exception>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -26,11 +28,16 @@ class EventLoop {
   /// Ends a wait() at once, or the next one. From any thread, while an EventLoop exists.
   static void wake();
 
+  /// `task` is called whenever events have been handled, until it is removed again by its owner.
+  void addTask(const void* owner, std::function<void()> task) { tasks_[owner] = std::move(task); }
+  void removeTask(const void* owner) { tasks_.erase(owner); }
+
   /// Windows: keeps what a handler threw until the C library has returned.
   void keep(std::exception_ptr thrown) { thrown_ = std::move(thrown); }
 
  private:
-  void rethrow();
+  void finish();
+  std::map<const void*, std::function<void()>> tasks_;
   std::exception_ptr thrown_;
 };
 

@@ -1,9 +1,9 @@
 #include "devices/display/keysyms.h"
 
 #include <X11/XKBlib.h>
-#include <X11/keysym.h>
+#include <X11/Xlib.h>
 
-#include <algorithm>
+#include <utility>
 
 #include "devices/display/display_error.h"
 
@@ -12,78 +12,82 @@ namespace pixelflex::devices {
 struct Keysyms::Connection {
   Display* display = nullptr;
   int keyboardEvents = -1;  // the event number of the keyboard extension
+
+  /// NoSymbol when the key means nothing in this layout.
+  [[nodiscard]] KeySym keysymOf(const XKeyEvent& event) const {
+    unsigned used = 0;
+    KeySym keysym = NoSymbol;
+    (void)XkbLookupKeySym(display, static_cast<KeyCode>(event.keycode), event.state, &used, &keysym);
+    return keysym;
+  }
+  void follow(XEvent& event) const {
+    XkbEvent xkb{};
+    xkb.core = event;
+    if (event.type == keyboardEvents && xkb.any.xkb_type == XkbMapNotify) {
+      XkbRefreshKeyboardMapping(&xkb.map);
+    } else if (event.type == MappingNotify) {
+      XRefreshKeyboardMapping(&event.xmapping);
+    }
+  }
 };
 
-namespace {
-
-constexpr unsigned kNumLockMask = Mod2Mask;
-constexpr unsigned kThirdLevelMask = Mod5Mask;  // AltGr
-
-}  // namespace
-
-Keysyms::Keysyms() : connection_(std::make_unique<Connection>()) {
-  connection_->display = XOpenDisplay(nullptr);
-  if (connection_->display == nullptr) throw DisplayError("cannot read the keyboard's layout: the X server is gone");
-  XkbQueryExtension(connection_->display, nullptr, &connection_->keyboardEvents, nullptr, nullptr, nullptr);
-  XkbSelectEvents(connection_->display, XkbUseCoreKbd, XkbMapNotifyMask, XkbMapNotifyMask);
+Keysyms::Keysyms(unsigned long window) : connection_(std::make_unique<Connection>()) {
+  Display* const display = connection_->display = XOpenDisplay(nullptr);
+  if (display == nullptr) throw DisplayError("cannot read the keyboard's layout: the X server is gone");
+  XkbQueryExtension(display, nullptr, &connection_->keyboardEvents, nullptr, nullptr, nullptr);
+  XkbSelectEvents(display, XkbUseCoreKbd, XkbMapNotifyMask, XkbMapNotifyMask);
+  // A key that is held is then pressed again and again, and released once.
+  XkbSetDetectableAutoRepeat(display, True, nullptr);
+  XSelectInput(display, window, KeyPressMask | KeyReleaseMask | FocusChangeMask);
+  XSync(display, False);
 }
 
 Keysyms::~Keysyms() {
   XCloseDisplay(connection_->display);
 }
 
-void Keysyms::followLayout() {
+std::vector<KeyStroke> Keysyms::take(bool all) {
+  if (all) XSync(connection_->display, False);
   while (XPending(connection_->display) > 0) {
-    XkbEvent event;
-    XNextEvent(connection_->display, &event.core);
-    if (event.type == connection_->keyboardEvents && event.any.xkb_type == XkbMapNotify) {
-      XkbRefreshKeyboardMapping(&event.map);
-    } else if (event.type == MappingNotify) {
-      XRefreshKeyboardMapping(&event.core.xmapping);
+    XEvent event;
+    XNextEvent(connection_->display, &event);
+    switch (event.type) {
+      case KeyPress:
+        press(event.xkey.keycode, static_cast<std::uint32_t>(connection_->keysymOf(event.xkey)));
+        break;
+      case KeyRelease:
+        release(event.xkey.keycode);
+        break;
+      case FocusOut:
+        releaseAll();
+        break;
+      default:
+        connection_->follow(event);
     }
   }
+  return std::exchange(strokes_, {});
 }
 
-unsigned Keysyms::stateOf(KeyModifiers modifiers) const {
-  unsigned state = 0;
-  if (modifiers.shift) state |= ShiftMask;
-  if (modifiers.capsLock) state |= LockMask;
-  if (modifiers.numLock) state |= kNumLockMask;
-  const bool thirdLevel =
-      std::any_of(pressed_.begin(), pressed_.end(), [](const auto& key) { return key.second == XK_ISO_Level3_Shift; });
-  if (thirdLevel) state |= kThirdLevelMask;
-  XkbStateRec keyboard;
-  if (XkbGetState(connection_->display, XkbUseCoreKbd, &keyboard) == Success) {
-    state = XkbBuildCoreState(state, keyboard.group);
+void Keysyms::press(unsigned keycode, std::uint32_t keysym) {
+  if (keysym == NoSymbol) return;
+  const auto [held, isNew] = pressed_.try_emplace(keycode, keysym);
+  // Shift pressed while a letter repeats makes another keysym of it.
+  if (!isNew && held->second != keysym) {
+    strokes_.push_back({std::exchange(held->second, keysym), false});
   }
-  return state;
+  strokes_.push_back({keysym, true});
 }
 
-std::optional<std::uint32_t> Keysyms::press(int keycode, KeyModifiers modifiers) {
-  followLayout();
-  unsigned used = 0;
-  KeySym keysym = NoSymbol;
-  const bool known =
-      XkbLookupKeySym(connection_->display, static_cast<KeyCode>(keycode), stateOf(modifiers), &used, &keysym) != False;
-  if (!known || keysym == NoSymbol) return {};
-  pressed_[keycode] = static_cast<std::uint32_t>(keysym);
-  return static_cast<std::uint32_t>(keysym);
-}
-
-std::optional<std::uint32_t> Keysyms::release(int keycode) {
+void Keysyms::release(unsigned keycode) {
   const auto found = pressed_.find(keycode);
-  if (found == pressed_.end()) return {};
-  const auto keysym = found->second;
+  if (found == pressed_.end()) return;
+  strokes_.push_back({found->second, false});
   pressed_.erase(found);
-  return keysym;
 }
 
-std::vector<std::uint32_t> Keysyms::releaseAll() {
-  std::vector<std::uint32_t> keysyms;
-  keysyms.reserve(pressed_.size());
-  for (const auto& [keycode, keysym] : pressed_) keysyms.push_back(keysym);
+void Keysyms::releaseAll() {
+  for (const auto& [keycode, keysym] : pressed_) strokes_.push_back({keysym, false});
   pressed_.clear();
-  return keysyms;
 }
 
 }  // namespace pixelflex::devices

@@ -2,44 +2,44 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <unordered_map>
 #include <vector>
 
 namespace pixelflex::devices {
 
-/// Modifiers as the windowing library reports them with an event.
-struct KeyModifiers {
-  bool shift = false;
-  bool capsLock = false;
-  bool numLock = false;
+/// A key that went down (again, while it is held) or up, as an X11 keysym.
+struct KeyStroke {
+  std::uint32_t keysym = 0;
+  bool pressed = false;
+  bool operator==(const KeyStroke&) const = default;
 };
 
-/// Turns hardware keys into X11 keysyms by the display's keyboard layout. A release gives the keysym of its press,
-/// whatever the modifiers have become since.
+/// The keys pressed in one window, as keysyms by the display's layout, with levels, groups, locks and dead keys as the
+/// X server itself counts them. The windowing library tells less: it drops modifiers and knows no groups. A release has
+/// the keysym of its press, whatever the modifiers have become since; keys held when the keyboard goes elsewhere are
+/// released.
 class Keysyms {
  public:
-  /// Opens a connection of its own to the environment's display, to follow the layout when it is changed. Throws
-  /// DisplayError.
-  Keysyms();
+  /// On a connection of its own to the environment's display, to follow the layout when it is changed. `window` is X's
+  /// number. Throws DisplayError.
+  explicit Keysyms(unsigned long window);
   ~Keysyms();
   Keysyms(const Keysyms&) = delete;
   Keysyms& operator=(const Keysyms&) = delete;
 
-  /// None when the key means nothing in this layout.
-  [[nodiscard]] std::optional<std::uint32_t> press(int keycode, KeyModifiers modifiers);
-  /// None when it was not pressed here.
-  [[nodiscard]] std::optional<std::uint32_t> release(int keycode);
-  /// The window lost the keyboard: everything still pressed.
-  [[nodiscard]] std::vector<std::uint32_t> releaseAll();
+  /// What has happened since the last call, in order; with `all` what the server knows by now, which takes a way there
+  /// and back.
+  [[nodiscard]] std::vector<KeyStroke> take(bool all);
 
  private:
   struct Connection;
-  void followLayout();
-  [[nodiscard]] unsigned stateOf(KeyModifiers modifiers) const;
+  void press(unsigned keycode, std::uint32_t keysym);
+  void release(unsigned keycode);
+  void releaseAll();
 
   std::unique_ptr<Connection> connection_;
-  std::unordered_map<int, std::uint32_t> pressed_;  // keysym by keycode
+  std::unordered_map<unsigned, std::uint32_t> pressed_;  // keysym by keycode
+  std::vector<KeyStroke> strokes_;
 };
 
 }  // namespace pixelflex::devices

@@ -10,10 +10,9 @@
 namespace pixelflex::devices {
 
 struct Monitor {
-  std::string name;           // RandR's, e.g. HDMI-1
+  std::string name;           // RandR's, e.g. HDMI-1, or as made by xrandr --setmonitor
   glm::ivec2 position{0, 0};  // on the display, pixels
   Size size;
-  double refreshRate = 0;  // Hz
   bool operator==(const Monitor&) const = default;
 };
 

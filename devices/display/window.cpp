@@ -2,6 +2,8 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#define GLFW_EXPOSE_NATIVE_X11
+#include <GLFW/glfw3native.h>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
@@ -17,7 +19,10 @@ namespace pixelflex::devices {
 struct Window::State {
   EventLoop* loop = nullptr;
   GLFWwindow* handle = nullptr;
-  Keysyms keysyms;
+  std::unique_ptr<Keysyms> keysyms;
+  bool keysWait = false;  // some have been pressed or the keyboard has gone
+  int unlockedCursor = GLFW_CURSOR_NORMAL;
+  std::optional<glm::dvec2> lockedAt;  // set while the pointer is locked
   WindowHandlers handlers;
   GlFramebuffer reader;  // present() reads the shown texture through it
 
@@ -67,10 +72,6 @@ int buttonNumber(int button) {
   }
 }
 
-KeyModifiers modifiersOf(int mods) {
-  return {(mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CAPS_LOCK) != 0, (mods & GLFW_MOD_NUM_LOCK) != 0};
-}
-
 }  // namespace
 
 Window::Window(EventLoop& loop, const WindowRequest& request, const Window* share) : state_(std::make_unique<State>()) {
@@ -83,8 +84,9 @@ Window::Window(EventLoop& loop, const WindowRequest& request, const Window* shar
                                    request.size.width, request.size.height, lastGlfwError()));
   }
   glfwSetWindowUserPointer(state_->handle, state_.get());
-  glfwSetInputMode(state_->handle, GLFW_LOCK_KEY_MODS, GLFW_TRUE);
-  if (!request.showPointer) glfwSetInputMode(state_->handle, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
+  state_->keysyms = std::make_unique<Keysyms>(glfwGetX11Window(state_->handle));
+  if (!request.showPointer) state_->unlockedCursor = GLFW_CURSOR_HIDDEN;
+  glfwSetInputMode(state_->handle, GLFW_CURSOR, state_->unlockedCursor);
   if (request.at) glfwSetWindowPos(state_->handle, request.at->x, request.at->y);
   makeCurrent();
   glfwSwapInterval(request.paced ? 1 : 0);
@@ -95,6 +97,7 @@ Window::Window(EventLoop& loop, const WindowRequest& request, const Window* shar
 }
 
 Window::~Window() {
+  state_->loop->removeTask(this);
   glfwMakeContextCurrent(state_->handle);
   state_->reader.reset();
   glfwMakeContextCurrent(nullptr);
@@ -105,7 +108,10 @@ void Window::setHandlers(WindowHandlers handlers) {
   state_->handlers = std::move(handlers);
   GLFWwindow* const window = state_->handle;
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
-    State::of(w).call(State::of(w).handlers.pointer, glm::dvec2(x, y));
+    auto& state = State::of(w);
+    const glm::dvec2 position(x, y);
+    if (!state.lockedAt) return state.call(state.handlers.pointer, position);
+    state.call(state.handlers.motion, position - std::exchange(*state.lockedAt, position));
   });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int /*mods*/) {
     State::of(w).call(State::of(w).handlers.button, buttonNumber(button), action != GLFW_RELEASE);
@@ -113,16 +119,14 @@ void Window::setHandlers(WindowHandlers handlers) {
   glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
     State::of(w).call(State::of(w).handlers.scroll, glm::dvec2(x, y));
   });
-  glfwSetKeyCallback(window, [](GLFWwindow* w, int /*key*/, int scancode, int action, int mods) {
-    auto& state = State::of(w);
-    const bool pressed = action != GLFW_RELEASE;
-    const auto keysym = pressed ? state.keysyms.press(scancode, modifiersOf(mods)) : state.keysyms.release(scancode);
-    if (keysym) state.call(state.handlers.key, *keysym, pressed);
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int /*key*/, int /*scancode*/, int /*action*/, int /*mods*/) {
+    State::of(w).keysWait = true;
   });
-  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
-    auto& state = State::of(w);
-    if (focused == GLFW_TRUE) return;
-    for (const auto keysym : state.keysyms.releaseAll()) state.call(state.handlers.key, keysym, false);
+  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int /*focused*/) { State::of(w).keysWait = true; });
+  state_->loop->addTask(this, [state = state_.get()] {
+    for (const auto& [keysym, pressed] : state->keysyms->take(std::exchange(state->keysWait, false))) {
+      state->call(state->handlers.key, keysym, pressed);
+    }
   });
   glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { State::of(w).call(State::of(w).handlers.close); });
   glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { State::of(w).call(State::of(w).handlers.redraw); });
@@ -160,6 +164,33 @@ glm::ivec2 Window::position() const {
   glm::ivec2 position;
   glfwGetWindowPos(state_->handle, &position.x, &position.y);
   return position;
+}
+
+void Window::lockPointer(bool locked) {
+  if (locked == state_->lockedAt.has_value()) return;
+  glfwSetInputMode(state_->handle, GLFW_CURSOR, locked ? GLFW_CURSOR_DISABLED : state_->unlockedCursor);
+  state_->lockedAt.reset();
+  if (!locked) return;
+  glm::dvec2 position;
+  glfwGetCursorPos(state_->handle, &position.x, &position.y);
+  state_->lockedAt = position;
+}
+
+void Window::moveTo(glm::ivec2 position) {
+  glfwSetWindowPos(state_->handle, position.x, position.y);
+}
+
+void Window::pace(bool paced) {
+  makeCurrent();
+  glfwSwapInterval(paced ? 1 : 0);
+}
+
+void Window::show(bool shown) {
+  if (shown) {
+    glfwShowWindow(state_->handle);
+  } else {
+    glfwHideWindow(state_->handle);
+  }
 }
 
 void Window::setTitle(const std::string& title) {

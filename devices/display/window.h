@@ -27,7 +27,8 @@ struct WindowRequest {
 
 /// What happens to a window, called from EventLoop::wait() and poll() on the main thread. Each may be empty.
 struct WindowHandlers {
-  std::function<void(glm::dvec2 position)> pointer;      // window pixels from the top-left corner
+  std::function<void(glm::dvec2 position)> pointer;  // window pixels from the top-left corner; outside it during a drag
+  std::function<void(glm::dvec2 by)> motion;         // in the pointer's stead while it is locked: pixels
   std::function<void(int button, bool pressed)> button;  // X numbers: 1 left, 2 middle, 3 right, 8 back, 9 forward
   std::function<void(glm::dvec2 steps)> scroll;          // wheel notches, up and left positive
   std::function<void(std::uint32_t keysym, bool pressed)> key;  // X11 keysyms, modifiers too; repeats are presses
@@ -54,6 +55,14 @@ class Window final : public GlContext {
   [[nodiscard]] int bitsPerColour();
   /// Of the top-left corner on the display.
   [[nodiscard]] glm::ivec2 position() const;
+  /// Locked, the pointer is hidden and stays in this window while that has the keyboard; only its motion is told.
+  void lockPointer(bool locked);
+  /// Moves it; a window manager may have its own mind.
+  void moveTo(glm::ivec2 position);
+  /// present() waits for the monitor's refresh; at most one window of a wall. Leaves this context current.
+  void pace(bool paced);
+  /// Hidden, it is off the screen but keeps its context.
+  void show(bool shown);
   void setTitle(const std::string& title);
 
   /// Shows a GL_TEXTURE_2D whose row 0 is the top, filling the window, and swaps. The texture must be finished. Leaves

@@ -35,7 +35,8 @@ std::string askUntil(XServer& x, const std::vector<std::string>& command, const 
 class InputTest : public ::testing::Test {
  protected:
   std::unique_ptr<Process> startViewer(const std::string& address, std::vector<std::string> more = {}) {
-    std::vector<std::string> command = {std::string(PIXELFLEX_BIN_DIR) + "/pixelflex-view", wall().string(), address};
+    std::vector<std::string> command = {std::string(PIXELFLEX_BIN_DIR) + "/pixelflex-view", wall().string(), address,
+                                        "--pointer", "screen"};
     command.insert(command.end(), more.begin(), more.end());
     return std::make_unique<Process>(
         command, ProcessOptions{.environment = {"DISPLAY=" + screen_.x().display()}, .log = folder_ / "log"});

@@ -4,8 +4,11 @@
 #include <functional>
 #include <glm/vec2.hpp>
 #include <optional>
+#include <set>
+#include <vector>
 
 #include "devices/display/window.h"
+#include "viewer/programs/control_taps.h"
 #include "viewer/programs/wall_view.h"
 
 namespace pixelflex::viewer {
@@ -16,23 +19,41 @@ class Input {
   /// `view` must outlive this and the windows. `onQuit` is called for Ctrl+Alt+Q and closed windows.
   Input(WallView& view, std::function<void()> onQuit) : view_(view), onQuit_(std::move(onQuit)) {}
 
-  /// Handlers for a window; `desktopFromWindow` finds the desktop pixel under a window pixel.
+  /// Takes a window's pointer and keys; the window must outlive this. `desktopFromWindow` finds the desktop pixel under
+  /// a window pixel. `joins`: a drag out of this window goes on in the next one that joins, and lockPointer() holds.
   using Map = std::function<std::optional<glm::ivec2>(glm::dvec2 pointInWindow)>;
-  [[nodiscard]] devices::WindowHandlers handlers(Map desktopFromWindow, std::function<void()> redraw);
+  void take(devices::Window& window, Map desktopFromWindow, std::function<void()> redraw, bool joins);
+
+  /// Locked, the pointer moves over the desktop as the mouse does, wherever the windows lie; Ctrl+Alt+G lets it go and
+  /// locks it again.
+  void lockPointer();
 
  private:
+  struct Pane {
+    devices::Window* window = nullptr;
+    Map map;
+    bool joins = false;
+  };
   void move(std::optional<glm::ivec2> pointInDesktop);
+  void moveIn(std::size_t pane, glm::dvec2 pointInWindow);
+  [[nodiscard]] std::optional<glm::ivec2> besides(const Pane& pane, glm::dvec2 pointInWindow) const;
+  void moveBy(glm::dvec2 pixels);
   void button(int number, bool pressed);
   void scroll(glm::dvec2 steps);
   void key(std::uint32_t keysym, bool pressed);
+  [[nodiscard]] bool takenAsCommand(std::uint32_t keysym);
+  void setLock(bool locked);
 
   WallView& view_;
   std::function<void()> onQuit_;
-  glm::ivec2 position_{0, 0};
-  std::uint8_t buttons_ = 0;
+  std::vector<Pane> panes_;
+  std::uint16_t buttons_ = 0;
   glm::dvec2 unscrolled_{0, 0};
-  bool control_ = false;
-  bool alt_ = false;
+  glm::dvec2 unmoved_{0, 0};           // less than a pixel
+  std::set<std::uint32_t> modifiers_;  // of Ctrl and Alt, those that are down
+  ControlTaps taps_;
+  bool lockable_ = false;
+  bool locked_ = false;
 };
 
 }  // namespace pixelflex::viewer

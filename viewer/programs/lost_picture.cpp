@@ -37,10 +37,49 @@ devices::Image8 lostSign(int extent) {
   return sign;
 }
 
+devices::Image8 ringAround(const devices::Image8& cursor, glm::ivec2 hotspot, int extent) {
+  devices::Image8 image({extent, extent}, 4);
+  const double radius = extent / 2.0;
+  const double stroke = std::max(radius / 12, 3.0);
+  for (int y = 0; y < extent; ++y) {
+    for (int x = 0; x < extent; ++x) {
+      // Amber between two lines of ink, so that it is seen on anything.
+      const double fromRing = std::abs(std::hypot(x + 0.5 - radius, y + 0.5 - radius) - (radius - 2 * stroke));
+      std::ranges::copy(fromRing < stroke ? kAmber : kInk, &image.at(x, y));
+      image.at(x, y, 3) = fromRing < 1.5 * stroke ? 255 : 0;
+    }
+  }
+  const glm::ivec2 corner = glm::ivec2(extent / 2, extent / 2) - hotspot;
+  for (int y = 0; y < cursor.height(); ++y) {
+    for (int x = 0; x < cursor.width(); ++x) {
+      const glm::ivec2 to = corner + glm::ivec2(x, y);
+      const bool fits = to.x >= 0 && to.y >= 0 && to.x < extent && to.y < extent;
+      if (fits && cursor.at(x, y, 3) > 0) std::copy_n(&cursor.at(x, y), 4, &image.at(to.x, to.y));
+    }
+  }
+  return image;
+}
+
 void LostPicture::setCursor(devices::Image8 image, glm::ivec2 hotspot) {
   cursor_ = std::move(image);
   hotspot_ = hotspot;
-  if (!signShown_) renderer_.setCursor(cursor_, hotspot_);
+  putCursor();
+}
+
+void LostPicture::putCursor() {
+  if (signShown_) return;
+  if (ringExtent_ == 0) return renderer_.setCursor(cursor_, hotspot_);
+  renderer_.setCursor(ringAround(cursor_, hotspot_, ringExtent_), {ringExtent_ / 2, ringExtent_ / 2});
+}
+
+void LostPicture::ring(devices::Size desktop) {
+  ringExtent_ = std::clamp(desktop.height / 4, 96, 1024);
+  putCursor();
+}
+
+void LostPicture::unring() {
+  ringExtent_ = 0;
+  putCursor();
 }
 
 void LostPicture::moveCursor(glm::ivec2 position) {
@@ -65,7 +104,7 @@ void LostPicture::putSign(devices::Size desktop) {
 void LostPicture::comeBack() {
   renderer_.setBrightness(1);
   if (!std::exchange(signShown_, false)) return;
-  renderer_.setCursor(cursor_, hotspot_);
+  putCursor();
   renderer_.moveCursor(position_);
 }
 

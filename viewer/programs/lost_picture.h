@@ -11,6 +11,9 @@ namespace pixelflex::viewer {
 /// A sign for "no connection": a disc with an exclamation mark, four channels, `extent` pixels each way.
 [[nodiscard]] devices::Image8 lostSign(int extent);
 
+/// A pointer's image inside a ring that is seen from afar, `extent` pixels each way; the hot spot is in the middle.
+[[nodiscard]] devices::Image8 ringAround(const devices::Image8& cursor, glm::ivec2 hotspot, int extent);
+
 /// What the wall shows of a lost connection: the picture dimmed, or a sign in the pointer's stead, which is of no use
 /// meanwhile. The pointer goes through here because of that. Render thread.
 class LostPicture {
@@ -22,16 +25,22 @@ class LostPicture {
   void setCursor(devices::Image8 image, glm::ivec2 hotspot);
   void moveCursor(glm::ivec2 position);
 
+  /// Shows a ring around the pointer, of a size that fits the desktop, or takes it away.
+  void ring(devices::Size desktop);
+  void unring();
+
   /// `desktop` is the size of what is shown, empty if nothing is yet.
   void lose(devices::Size desktop);
   void comeBack();
 
  private:
   void putSign(devices::Size desktop);
+  void putCursor();
 
   WallRenderer& renderer_;
   WhenLost whenLost_;
   bool signShown_ = false;
+  int ringExtent_ = 0;  // 0: no ring
   devices::Image8 cursor_;
   glm::ivec2 hotspot_{0, 0};
   glm::ivec2 position_{0, 0};

@@ -24,6 +24,8 @@ namespace {
 
 const std::map<std::string, Retry> kRetries{
     {"never", Retry::kNever}, {"lost", Retry::kLost}, {"always", Retry::kAlways}};
+const std::map<std::string, PointerMode> kPointerModes{
+    {"auto", PointerMode::kAuto}, {"desktop", PointerMode::kDesktop}, {"screen", PointerMode::kScreen}};
 const std::map<std::string, WhenLost> kWhenLost{
     {"dim", WhenLost::kDim}, {"mark", WhenLost::kMark}, {"keep", WhenLost::kKeep}};
 
@@ -96,7 +98,19 @@ int main(int argc, char** argv) {
   app.add_option("--screens", screens, "with --resize: one screen for the wall, or one for each of its projectors")
       ->check(CLI::IsMember({"one", "projectors"}))
       ->capture_default_str();
-  app.add_flag("--view-only", options.viewOnly, "send neither pointer nor keys");
+  app.add_flag("--view-only", options.viewOnly, "send neither pointer nor keys nor clipboard");
+  app.add_option(
+         "--pointer", options.pointer,
+         "desktop: the mouse moves over the desktop wherever the windows are, Ctrl+Alt+G lets it go; screen: over "
+         "the windows as they lie; auto: screen where they lie as on the wall")
+      ->transform(CLI::CheckedTransformer(pixelflex::viewer::kPointerModes))
+      ->option_text("auto|desktop|screen");
+  app.add_flag("--control", options.control, "a window with the whole desktop, to point and type without the wall")
+      ->excludes("--headless")
+      ->excludes("--screenshot");
+  app.add_option("--clipboard-limit", options.clipboardLimit, "bytes of the longest text to copy; 0: no clipboard")
+      ->check(CLI::Range(0, 256 << 20))
+      ->capture_default_str();
   app.add_option("--password-file", options.passwordFile,
                  "the first line is the password, or vncpasswd wrote it; mode 0600. Without it PIXELFLEX_VNC_PASSWORD "
                  "is taken, or the terminal is asked");

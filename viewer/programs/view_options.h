@@ -25,6 +25,10 @@ enum class Source {
   kAuto,  // straight from its X server, where that is certainly the same desktop
 };
 
+/// How the pointer goes over the wall: as the X pointer over the windows, or as the mouse over the desktop, wherever
+/// the windows are. kAuto takes the first where the windows lie as on the wall.
+enum class PointerMode { kAuto, kDesktop, kScreen };
+
 /// The command line of `pixelflex view`.
 struct ViewOptions {
   std::string wall;
@@ -37,6 +41,9 @@ struct ViewOptions {
   FitOptions fit;
   Resize resize = Resize::kNo;
   bool viewOnly = false;
+  PointerMode pointer = PointerMode::kAuto;
+  bool control = false;                               // a window with the whole desktop beside the wall
+  std::size_t clipboardLimit = std::size_t{1} << 20;  // bytes; 0: no clipboard
   std::optional<std::string> passwordFile;
   std::optional<std::string> password;  // out of that file, the environment or a prompt
   std::string user;

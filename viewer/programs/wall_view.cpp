@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "viewer/plan/overview.h"
 #include "viewer/plan/wall_screens.h"
 #include "viewer/programs/view_security.h"
 #include "viewer/vnc/session.h"
@@ -26,6 +27,7 @@ SessionOptions sessionOptions(const ViewOptions& options) {
           .security = options.security,
           .viewOnly = options.viewOnly,
           .mayResize = options.resize != Resize::kNo,
+          .clipboardLimit = options.clipboardLimit,
           .retry = retryOf(options)};
 }
 
@@ -70,6 +72,10 @@ std::unique_ptr<DesktopSource> WallView::openSource() {
 }
 
 WallView::Step WallView::step() {
+  if (Clock::now() >= ringUntil_) {
+    ringUntil_ = Clock::time_point::max();
+    picture_.unring();
+  }
   for (const auto& event : source_->takeEvents()) handle(event);
   while (Batch* batch = belt_.take()) {
     if (batch->desktop != desktop_) adopt(batch->desktop);
@@ -85,6 +91,8 @@ WallView::Step WallView::step() {
   if (!updateOpen_) adoptNewWall();
   Step step;
   step.plansChanged = std::exchange(plansChanged_, false);
+  step.bell = std::exchange(bell_, false);
+  step.copied = std::exchange(copiedThere_, std::nullopt);
   step.drawn = renderer_.draw();
   if (!step.drawn.empty()) lastChange_ = Clock::now();
   return step;
@@ -94,6 +102,9 @@ void WallView::handle(const SessionEvent& event) {
   if (const auto* connected = std::get_if<Connected>(&event)) {
     desktopName_ = connected->name;
     connected_ = true;
+    if (!hasPicture_) pointer_ = {connected->size.width / 2, connected->size.height / 2};
+    const std::scoped_lock lock(copiedMutex_);
+    if (!copiedHere_.empty()) source_->sendClipboard(copiedHere_);
     // What is shown stays until there is a picture to replace it.
     if (!hasPicture_) adopt(connected->size);
     requestLayout();
@@ -110,7 +121,14 @@ void WallView::handle(const SessionEvent& event) {
   } else if (const auto* refused = std::get_if<ResizeRefused>(&event)) {
     fmt::print(stderr, "pixelflex-view: {}; it is shown scaled\n", refused->message);
   } else if (const auto* moved = std::get_if<CursorMoved>(&event)) {
-    picture_.moveCursor({moved->x, moved->y});
+    pointer_ = {moved->x, moved->y};
+    picture_.moveCursor(pointer_);
+  } else if (const auto* text = std::get_if<Clipboard>(&event)) {
+    copiedThere_ = text->text;
+    const std::scoped_lock lock(copiedMutex_);
+    copiedHere_.clear();
+  } else if (std::holds_alternative<Bell>(event)) {
+    bell_ = true;
   } else if (const auto* lost = std::get_if<Lost>(&event)) {
     lose(lost->message);
   } else if (const auto* closed = std::get_if<Closed>(&event)) {
@@ -146,7 +164,8 @@ void WallView::adopt(devices::Size desktop) {
   show(wall().outputsFor(desktop));
 }
 
-void WallView::show(const std::vector<OutputPlan>& plans) {
+void WallView::show(std::vector<OutputPlan> plans) {
+  if (options_.control) plans.push_back(overviewOf(desktop_));
   renderer_.setPlans(plans);
   pointerMap_.emplace(wall(), desktop_);
   plansChanged_ = true;
@@ -172,7 +191,21 @@ void WallView::requestLayout() {
   }
 }
 
+void WallView::findPointer() {
+  picture_.ring(desktop_);
+  ringUntil_ = Clock::now() + std::chrono::seconds(1);
+}
+
+void WallView::copy(std::string text) {
+  {
+    const std::scoped_lock lock(copiedMutex_);
+    copiedHere_ = text;
+  }
+  source_->sendClipboard(std::move(text));
+}
+
 void WallView::point(glm::ivec2 pointInDesktop, std::uint16_t buttons) {
+  pointer_ = pointInDesktop;
   picture_.moveCursor(pointInDesktop);
   source_->sendPointer(pointInDesktop.x, pointInDesktop.y, buttons);
 }

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -46,6 +47,8 @@ class WallView {
     std::vector<std::size_t> drawn;  // outputs whose frame changed
     bool cursorChanged = false;
     bool plansChanged = false;  // textures and sizes of all outputs are new
+    bool bell = false;
+    std::optional<std::string> copied;  // text that was copied on the desktop
   };
   /// Takes what has arrived and draws what it touched. Throws ViewError when the session has ended.
   Step step();
@@ -63,9 +66,20 @@ class WallView {
   /// Null before the first connection.
   [[nodiscard]] const PointerMap* pointerMap() const { return pointerMap_ ? &*pointerMap_ : nullptr; }
 
+  /// The desktop pixel that it points at, whoever moved it.
+  [[nodiscard]] glm::ivec2 pointer() const { return pointer_; }
+  /// Draws a ring around it for a second.
+  void findPointer();
+  /// When step() has something to do although nothing arrives.
+  [[nodiscard]] Clock::time_point due() const { return ringUntil_; }
+  /// The output that shows the whole desktop, see ViewOptions::control: after those of the projectors.
+  [[nodiscard]] std::size_t controlOutput() const { return wall().projectors().size(); }
+
   /// Moves the pointer there, locally at once, and tells the server.
   void point(glm::ivec2 pointInDesktop, std::uint16_t buttons);
   void key(std::uint32_t keysym, bool down) { source_->sendKey(keysym, down); }
+  /// Text was copied on this side. A desktop that comes (back) gets the last one, too. Any thread.
+  void copy(std::string text);
   void markAll() { renderer_.markAll(); }
 
  private:
@@ -74,7 +88,7 @@ class WallView {
   void comeBack();
   [[nodiscard]] std::unique_ptr<DesktopSource> openSource();
   void adopt(devices::Size desktop);
-  void show(const std::vector<OutputPlan>& plans);
+  void show(std::vector<OutputPlan> plans);
   void adoptNewWall();
   void requestLayout();
 
@@ -91,6 +105,12 @@ class WallView {
   std::optional<PointerMap> pointerMap_;
   devices::Size desktop_;
   std::string desktopName_;
+  glm::ivec2 pointer_{0, 0};
+  Clock::time_point ringUntil_ = Clock::time_point::max();
+  std::mutex copiedMutex_;
+  std::string copiedHere_;  // under the mutex: unless something was copied on the desktop since
+  std::optional<std::string> copiedThere_;
+  bool bell_ = false;
   bool hasPicture_ = false;
   std::optional<Clock::time_point> lostSince_;
   bool connected_ = false;

@@ -5,14 +5,20 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <glm/common.hpp>
 #include <memory>
 #include <numeric>
+#include <optional>
 
+#include "devices/display/clipboard.h"
+#include "devices/display/display_watch.h"
 #include "devices/display/event_loop.h"
 #include "devices/display/monitors.h"
 #include "devices/display/window.h"
+#include "viewer/plan/overview.h"
 #include "viewer/programs/headless.h"
 #include "viewer/programs/input.h"
+#include "viewer/programs/projector_windows.h"
 #include "viewer/programs/quit_signal.h"
 #include "viewer/programs/room_of_rig.h"
 #include "viewer/programs/stats_printer.h"
@@ -21,13 +27,6 @@
 
 namespace pixelflex::viewer {
 namespace {
-
-const calib::ProjectorConfig& configOf(const WallPlan& wall, const std::string& name) {
-  const auto& all = wall.wall().projectors;
-  const auto found = std::ranges::find(all, name, &calib::ProjectorConfig::name);
-  if (found == all.end()) throw ViewError("wall.yaml has no projector " + name + " any more: calibrate again");
-  return *found;
-}
 
 /// All windows of a process are on one display: the one that the outputs name, else $DISPLAY.
 std::optional<std::string> chooseDisplay(const WallPlan& wall) {
@@ -75,13 +74,22 @@ class WallWindows {
         hidden_(loop_, {.title = "PixelFlex", .size = {16, 16}, .visible = false, .bitsPerColour = options.depth}),
         options_(atDepthOf(hidden_, options)),
         view_(options_, wall, hidden_, [this] { loop_.wake(); }),
-        input_(view_, [this] { quit_ = true; }) {
-    for (std::size_t i = 0; i < wall.projectors().size(); ++i) open(i);
-    if (!simulated_.empty()) openRoom();
-    if (windows_.empty()) {
-      throw ViewError(
-          "no projector of this wall has an output: give output: {monitor: NAME} in wall.yaml, or use --headless");
+        input_(view_, [this] { quit_ = true; }),
+        projectors_(loop_, hidden_, view_, input_, options_.depth),
+        watch_([this] {
+          monitorsChanged_ = true;
+          loop_.wake();
+        }) {
+    if (options_.clipboardLimit > 0) {
+      clipboard_.emplace(options_.clipboardLimit, [this](std::string text) { view_.copy(std::move(text)); });
     }
+    for (std::size_t i = 0; i < wall.projectors().size(); ++i) {
+      if (configOf(wall, wall.projectors()[i]->name).output.kind == calib::OutputKind::kSim) simulated_.push_back(i);
+    }
+    if (!simulated_.empty()) openRoom();
+    if (options.control) openControl();
+    requireWindows();
+    if (locksPointer()) input_.lockPointer();
   }
 
   int run(const QuitSignal& signal) {
@@ -89,8 +97,11 @@ class WallWindows {
     while (!quit_ && !signal.raised()) {
       const auto step = view_.step();
       if (step.plansChanged) roomChanged_ = allSimulated();
-      for (const std::size_t output : step.drawn) present(output);
+      if (monitorsChanged_.exchange(false)) projectors_.follow(devices::listMonitors(loop_));
+      present(step.drawn);
       presentRoom();
+      if (step.copied && clipboard_) clipboard_->set(*step.copied);
+      if (step.bell) watch_.ringBell();
       stats.printIfDue(view_);
       if (screenshotDone()) break;
       wait(stats.due());
@@ -100,42 +111,36 @@ class WallWindows {
   }
 
  private:
-  struct OutputWindow {
-    std::size_t output = 0;
-    std::unique_ptr<devices::Window> window;
-  };
+  void requireWindows() const {
+    if (projectors_.empty() && !room_) {
+      throw ViewError(
+          "no projector of this wall has an output: give output: {monitor: NAME} in wall.yaml, or use --headless");
+    }
+    if (room_ || controlWindow_ || projectors_.anyShown()) return;
+    std::string names;
+    for (const auto& monitor : devices::listMonitors(loop_)) names += (names.empty() ? "" : ", ") + monitor.name;
+    throw ViewError("none of the projectors' monitors is there; there are: " + (names.empty() ? "none" : names));
+  }
 
-  void open(std::size_t index) {
-    const auto& projector = *wall_.projectors()[index];
-    const auto& output = configOf(wall_, projector.name).output;
-    if (output.kind == calib::OutputKind::kNone) return;
-    if (output.kind == calib::OutputKind::kSim) {
-      simulated_.push_back(index);
-      return;
-    }
-    devices::WindowRequest request{.title = "PixelFlex " + projector.name,
-                                   .size = projector.resolution,
-                                   .at = output.at,
-                                   .borderless = true,
-                                   .paced = windows_.empty(),
-                                   .showPointer = false,
-                                   .bitsPerColour = options_.depth};
-    if (output.kind == calib::OutputKind::kMonitor) {
-      const auto monitor = devices::findMonitor(loop_, output.monitor);
-      if (monitor.size != projector.resolution) {
-        fmt::print(stderr, "pixelflex-view: warning: monitor {} is set to {}x{}, projector {} to {}x{}\n",
-                   output.monitor, monitor.size.width, monitor.size.height, projector.name, projector.resolution.width,
-                   projector.resolution.height);
-      }
-      request.at = monitor.position;
-    }
-    auto window = std::make_unique<devices::Window>(loop_, request, &hidden_);
-    window->setHandlers(input_.handlers(
-        [this, index](glm::dvec2 p) {
-          return view_.pointerMap() != nullptr ? view_.pointerMap()->fromProjector(index, p) : std::nullopt;
-        },
-        [this, index] { present(index); }));
-    windows_.push_back({index, std::move(window)});
+  [[nodiscard]] bool locksPointer() const {
+    if (options_.viewOnly || projectors_.empty()) return false;
+    if (options_.pointer == PointerMode::kAuto) return !controlWindow_ && !projectors_.lieAsOnTheWall();
+    return options_.pointer == PointerMode::kDesktop;
+  }
+
+  void openControl() {
+    const OutputPlan plan = overviewOf(wall_.desktop());
+    controlWindow_ = std::make_unique<devices::Window>(
+        loop_, devices::WindowRequest{.title = "PixelFlex: the desktop", .size = plan.resolution, .showPointer = false},
+        &hidden_);
+    const auto map = [this](glm::dvec2 p) -> std::optional<glm::ivec2> {
+      const glm::dvec2 desktop(view_.desktop().width, view_.desktop().height);
+      const glm::dvec2 window(controlWindow_->size().width, controlWindow_->size().height);
+      if (desktop.x < 1 || window.x < 1 || window.y < 1) return std::nullopt;
+      return glm::ivec2(glm::clamp(glm::floor(p / window * desktop), glm::dvec2(0), desktop - 1.0));
+    };
+    input_.take(
+        *controlWindow_, map, [this] { presentControl(); }, false);
   }
 
   void openRoom() {
@@ -151,13 +156,13 @@ class WallWindows {
     roomWindow_ = std::make_unique<devices::Window>(
         loop_, devices::WindowRequest{.title = "PixelFlex: the room", .size = {kWidth, height}}, &hidden_);
     room_.emplace(hidden_, rig.projectors);
-    roomWindow_->setHandlers(input_.handlers(
+    input_.take(
+        *roomWindow_,
         [this](glm::dvec2 p) -> std::optional<glm::ivec2> {
           if (view_.pointerMap() == nullptr || framing_.picture.area() == 0) return std::nullopt;
           return view_.pointerMap()->fromWall(framing_.wallFromPicture(p));
         },
-        [this] { roomChanged_ = allSimulated(); }));
-    windows_.push_back({simulated_.front(), nullptr});
+        [this] { roomChanged_ = allSimulated(); }, false);
     roomChanged_ = allSimulated();
   }
 
@@ -167,14 +172,19 @@ class WallWindows {
     return all;
   }
 
-  void present(std::size_t output) {
-    for (const auto& [shown, window] : windows_) {
-      if (window == nullptr || shown != output || output >= view_.renderer().outputCount()) continue;
-      window->present(view_.renderer().outputTexture(output), view_.renderer().outputResolution(output));
+  void present(const std::vector<std::size_t>& outputs) {
+    projectors_.present(outputs);
+    for (const std::size_t output : outputs) {
+      if (output == view_.controlOutput()) presentControl();
+      const auto found = std::ranges::find(simulated_, output);
+      if (found != simulated_.end()) roomChanged_.push_back(static_cast<std::size_t>(found - simulated_.begin()));
     }
-    if (const auto found = std::ranges::find(simulated_, output); found != simulated_.end()) {
-      roomChanged_.push_back(static_cast<std::size_t>(found - simulated_.begin()));
-    }
+  }
+
+  void presentControl() {
+    const std::size_t output = view_.controlOutput();
+    if (!controlWindow_ || output >= view_.renderer().outputCount()) return;
+    controlWindow_->present(view_.renderer().outputTexture(output), view_.renderer().outputResolution(output));
   }
 
   void presentRoom() {
@@ -196,6 +206,7 @@ class WallWindows {
   }
 
   void wait(WallView::Clock::time_point deadline) {
+    deadline = std::min(deadline, view_.due());
     if (options_.screenshot && view_.hasPicture()) deadline = std::min(deadline, view_.lastChange() + options_.settle);
     if (deadline == WallView::Clock::time_point::max()) {
       loop_.wait();
@@ -210,13 +221,17 @@ class WallWindows {
   ViewOptions options_;
   WallView view_;
   Input input_;
-  std::vector<OutputWindow> windows_;
+  ProjectorWindows projectors_;
+  std::unique_ptr<devices::Window> controlWindow_;
   std::vector<std::size_t> simulated_;
   std::unique_ptr<devices::Window> roomWindow_;
   std::optional<RoomView> room_;
   std::vector<std::size_t> roomChanged_;  // indices into simulated_
   RoomFraming framing_;
   bool quit_ = false;
+  std::atomic<bool> monitorsChanged_ = false;
+  devices::DisplayWatch watch_;
+  std::optional<devices::Clipboard> clipboard_;
 };
 
 }  // namespace

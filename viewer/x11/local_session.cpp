@@ -171,7 +171,7 @@ std::vector<SessionEvent> LocalSession::takeEvents() {
   return worker_->desk().takeEvents();
 }
 
-void LocalSession::sendPointer(int x, int y, std::uint8_t buttons) {
+void LocalSession::sendPointer(int x, int y, std::uint16_t buttons) {
   worker_->desk().add(PointerInput{x, y, buttons});
 }
 

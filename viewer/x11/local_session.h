@@ -33,7 +33,7 @@ class LocalSession : public DesktopSource {
   ~LocalSession() override;
 
   [[nodiscard]] std::vector<SessionEvent> takeEvents() override;
-  void sendPointer(int x, int y, std::uint8_t buttons) override;
+  void sendPointer(int x, int y, std::uint16_t buttons) override;
   void sendKey(std::uint32_t keysym, bool down) override;
   /// Texts beyond 16 MiB stay here.
   void sendClipboard(std::string text) override;

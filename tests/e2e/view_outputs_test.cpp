@@ -1,0 +1,59 @@
+// Monitors that go and come back.
+#include "tests/e2e/view_screens.h"
+
+namespace pixelflex::testing {
+namespace {
+
+class OutputsTest : public ScreensTest {
+ protected:
+  void onMonitors() {
+    calib::Wall flat = calib::loadWall(wall());
+    for (auto& projector : flat.projectors) {
+      projector.output = {.kind = calib::OutputKind::kMonitor, .monitor = "m-" + projector.name};
+    }
+    calib::saveWall(wall(), flat);
+  }
+  void plugIn(const std::string& name, int x) {
+    screen_.query({"xrandr", "--setmonitor", name, "300/80x200/60+" + std::to_string(x) + "+100", "none"});
+    tell();
+  }
+  void unplug(const std::string& name) {
+    screen_.query({"xrandr", "--delmonitor", name});
+    tell();
+  }
+  /// Xvfb tells of other changes than of monitors that were only named.
+  void tell() { screen_.query({"xrandr", "--fb", "1400x700", "--dpi", std::to_string(++dpi_)}); }
+
+  int dpi_ = 90;
+};
+
+TEST_F(OutputsTest, AMonitorThatGoesComesBackAndTheOtherGoesOn) {
+  makeWall({{0, 0}, {0, 0}});
+  onMonitors();
+  plugIn("m-p1", 100);
+  startViewer();
+  ASSERT_TRUE(comesTrue([&] { return logHolds("monitor m-p2 is not there: projector p2 is dark"); })) << log();
+  paintDesktop("#206040");
+  ASSERT_TRUE(comesTrue([&] { return shows({110, 110}, {0x20, 0x60, 0x40}); })) << log();
+  plugIn("m-p2", 700);
+  ASSERT_TRUE(comesTrue([&] { return shows({710, 110}, {0x20, 0x60, 0x40}); })) << log();
+  EXPECT_TRUE(logHolds("monitor m-p2 is there: projector p2 is shown"));
+  unplug("m-p1");
+  ASSERT_TRUE(comesTrue([&] { return logHolds("monitor m-p1 is not there: projector p1 is dark"); })) << log();
+  paintDesktop("#604020");
+  EXPECT_TRUE(comesTrue([&] { return shows({710, 110}, {0x60, 0x40, 0x20}); })) << log();
+  plugIn("m-p1", 400);
+  EXPECT_TRUE(comesTrue([&] { return shows({410, 110}, {0x60, 0x40, 0x20}); })) << "where it is now\n" << log();
+  EXPECT_TRUE(viewer_->running());
+}
+
+TEST_F(OutputsTest, SaysWhichMonitorsThereAreWhenNoneIsTheWalls) {
+  makeWall({{0, 0}});
+  onMonitors();
+  startViewer();
+  EXPECT_EQ(viewer_->wait(std::chrono::seconds(60)), 1);
+  EXPECT_TRUE(logHolds("none of the projectors' monitors is there; there are: screen")) << log();
+}
+
+}  // namespace
+}  // namespace pixelflex::testing
