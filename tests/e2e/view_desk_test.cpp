@@ -1,4 +1,4 @@
-// Working on a wall: typing, drawing, copying and pasting, finding the pointer, the control window.
+// Working on a wall: typing, drawing, finding the pointer, the control window.
 #include <algorithm>
 #include <fstream>
 
@@ -36,15 +36,6 @@ class DeskTest : public ScreensTest {
     for (int x = stroke.front().x; x < stroke.back().x; ++x) {
       ASSERT_EQ(picture.at(x, stroke.front().y, 0), 0) << "the line is broken at " << x;
     }
-  }
-  void copyOn(XServer& x, const std::string& text) {
-    writeText(folder_ / "copied", text);
-    x.query({"sh", "-c", "xclip -selection clipboard -i " + (folder_ / "copied").string() + " >/dev/null 2>&1"});
-  }
-  bool pastesOn(XServer& x, const std::string& text) {
-    return comesTrue([&] {
-      return answer(x, {"sh", "-c", "timeout 5 xclip -selection clipboard -o -t UTF8_STRING 2>/dev/null"}) == text;
-    });
   }
 };
 
@@ -97,20 +88,6 @@ TEST_F(DeskTest, TextOfAnotherLayoutArrivesLetterForLetter) {
   screen_.query({"xdotool", "key", "Return"});
   ASSERT_TRUE(comesTrue([&] { return fs::exists(typed) && !textOf(typed).empty(); })) << log();
   EXPECT_EQ(textOf(typed), text);
-}
-
-TEST_F(DeskTest, WhatIsCopiedOnEitherSideIsPastedOnTheOther) {
-  makeWall(kAsOnTheWall);
-  startViewer();
-  waitForPicture(kAsOnTheWall[0]);
-  std::string large;
-  while (large.size() < 100'000) large += std::to_string(large.size()) + " äß€\n";
-  for (const std::string& text : {std::string("ten bytes!"), std::string("Grüße, 你好 → ok"), large}) {
-    copyOn(screen_, text + "1");
-    EXPECT_TRUE(pastesOn(desktop_->x(), text + "1")) << text.size() << log();
-    copyOn(desktop_->x(), text + "2");
-    EXPECT_TRUE(pastesOn(screen_, text + "2")) << text.size() << log();
-  }
 }
 
 TEST_F(DeskTest, TwoTapsOfCtrlShowWhereThePointerIs) {

@@ -77,7 +77,7 @@ class ScreensTest : public ::testing::Test {
 
   const TemporaryFolder folder_;
   XServer screen_{[](const TemporaryFolder&) {
-    return std::vector<std::string>{"Xvfb", "-screen", "0", "1400x700x24", "-nolisten", "tcp"};
+    return std::vector<std::string>{"Xvfb", "-screen", "0", "1400x700x24", "-nolisten", "tcp", "-noreset"};
   }};
   std::unique_ptr<XvncServer> desktop_;
   std::unique_ptr<Process> viewer_;

@@ -173,7 +173,7 @@ std::vector<Hostile> messages() {
       bad("PointerCutOff", rect(0, 0, 32, 32, -239).repeat(1, 4000), "in the middle of an update", kLost),
       bad("FenceTooLong", Message().u8(248).repeat(0, 3).u32(0x80000001).u8(65).repeat(0, 65), "fence"),
       bad("FenceCutOff", Message().u8(248).repeat(0, 3).u32(0x80000001).u8(60).repeat(0, 59), "closed", kLost),
-      bad("TextOfFourGigabytes", Message(text).u32(0xffffffff).repeat('x', 9000), "closed the connection", kLost),
+      bad("TextOfTwoGigabytes", Message(text).u32(0x7fffffff).repeat('x', 9000), "closed the connection", kLost),
       bad("TextCutOff", Message(text).u32(1000).repeat('x', 999), "closed the connection", kLost),
       bad("ColourMapCutOff", Message().u8(1).u8(0).u16(0).u16(65535).repeat(1, 999), "closed the connection", kLost),
   };
