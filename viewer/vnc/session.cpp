@@ -10,9 +10,9 @@
 #include <thread>
 #include <utility>
 
-#include "viewer/vnc/backoff.h"
 #include "viewer/vnc/connector.h"
 #include "viewer/vnc/liveness.h"
+#include "viewer/vnc/reconnection.h"
 #include "viewer/vnc/rfb_client.h"
 #include "viewer/vnc/session_desk.h"
 #include "viewer/vnc/session_error.h"
@@ -48,8 +48,12 @@ class Session::Worker {
       : mayResize_(options.mayResize && !options.viewOnly),
         options_(std::move(options)),
         belt_(belt),
-        desk_(!options_.viewOnly, std::move(wake)) {
-    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+        desk_(!options_.viewOnly, std::move(wake)),
+        connection_(options_.retry, "the session with " + describeServer(options_.server), desk_) {
+    thread_ = std::jthread([this](const std::stop_token& stop) {
+      blockSigpipe();
+      connection_.run(stop, [&] { talk(stop); });
+    });
   }
   ~Worker() { stop(); }
   Worker(const Worker&) = delete;
@@ -69,47 +73,9 @@ class Session::Worker {
   }
 
  private:
-  void run(const std::stop_token& stop) {
-    blockSigpipe();
-    Backoff backoff;
-    try {
-      while (true) {
-        Closed end = converse(stop);
-        desk_.close();
-        if (stop.stop_requested()) return;
-        if (!triesAgain(end.kind)) return desk_.post({std::move(end)});
-        const CloseKind kind = end.kind;
-        if (!std::exchange(lost_, true)) desk_.post({Lost{kind, std::move(end.message)}});
-        waitFor(-1, 0, Clock::now() + backoff.after(kind, lasted()), desk_.stopped());
-      }
-    } catch (const SessionStopped&) {
-      desk_.close();
-    }
-  }
-
-  // One connection from its first byte to its end: why it ended.
-  Closed converse(const std::stop_token& stop) {
-    connectedSince_.reset();
-    try {
-      talk(stop);
-    } catch (const SessionError& error) {
-      return {error.kind(), error.what()};
-    } catch (const std::exception& error) {
-      return {CloseKind::kLost, "the session with " + describeServer(options_.server) + " ended: " + error.what()};
-    }
-  }
-
-  [[nodiscard]] bool triesAgain(CloseKind kind) const {
-    const bool wanted = options_.retry == Retry::kAlways || (options_.retry == Retry::kLost && everConnected_);
-    return wanted && mayHeal(kind);
-  }
-
-  [[nodiscard]] Clock::duration lasted() const {
-    return connectedSince_ ? Clock::now() - *connectedSince_ : Clock::duration::zero();
-  }
-
   [[noreturn]] void talk(const std::stop_token& stop) {
-    const auto patience = lost_ ? std::min(kReconnectTimeout, options_.connectTimeout) : options_.connectTimeout;
+    const auto patience =
+        connection_.lost() ? std::min(kReconnectTimeout, options_.connectTimeout) : options_.connectTimeout;
     const int socket = desk_.adopt(
         connectToServer(options_.server, {.lookUp = options_.connectTimeout, .connect = patience}, desk_.stopped()));
     RfbClient client(socket, options_);
@@ -132,9 +98,7 @@ class Session::Worker {
   }
 
   void announce(const RfbClient& client) {
-    connectedSince_ = Clock::now();
-    everConnected_ = true;
-    lost_ = false;
+    connection_.connected();
     desk_.open();
     desk_.post({Connected{client.desktopName(), client.desktop(), client.security()}});
   }
@@ -182,11 +146,9 @@ class Session::Worker {
   FrameBelt& belt_;
   SessionDesk desk_;
   // The thread's own:
+  Reconnection connection_;
   std::uint64_t updates_ = 0;
-  bool lost_ = false;
-  bool everConnected_ = false;
   std::deque<Input> unsent_;
-  std::optional<Clock::time_point> connectedSince_;
   std::jthread thread_;
 };
 

@@ -11,7 +11,7 @@
 #include <thread>
 #include <utility>
 
-#include "viewer/vnc/backoff.h"
+#include "viewer/vnc/reconnection.h"
 #include "viewer/vnc/session_desk.h"
 #include "viewer/vnc/session_error.h"
 #include "viewer/x11/local_desktop.h"
@@ -36,9 +36,12 @@ bool takesMore(int socket) {
 class LocalSession::Worker {
  public:
   Worker(LocalSessionOptions options, FrameBelt& belt, std::function<void()> wake)
-      : options_(options), belt_(belt), desk_(!options.viewOnly, std::move(wake)) {
+      : options_(options),
+        belt_(belt),
+        desk_(!options.viewOnly, std::move(wake)),
+        connection_(options.retry, "the session with the X server " + options.display.text(), desk_) {
     thread_ = std::jthread([this](const std::stop_token& stop) {
-      run(stop);
+      connection_.run(stop, [&] { talk(stop); });
       finished_.release();
     });
   }
@@ -57,44 +60,6 @@ class LocalSession::Worker {
   }
 
  private:
-  void run(const std::stop_token& stop) {
-    Backoff backoff;
-    try {
-      while (true) {
-        Closed end = converse(stop);
-        desk_.close();
-        if (stop.stop_requested()) return;
-        if (!triesAgain(end.kind)) return desk_.post({std::move(end)});
-        const CloseKind kind = end.kind;
-        if (!std::exchange(lost_, true)) desk_.post({Lost{kind, std::move(end.message)}});
-        waitFor(-1, 0, Clock::now() + backoff.after(kind, lasted()), desk_.stopped());
-      }
-    } catch (const SessionStopped&) {
-      desk_.close();
-    }
-  }
-
-  // One connection from its first byte to its end: why it ended.
-  Closed converse(const std::stop_token& stop) {
-    connectedSince_.reset();
-    try {
-      talk(stop);
-    } catch (const SessionError& error) {
-      return {error.kind(), error.what()};
-    } catch (const std::exception& error) {
-      return {CloseKind::kLost, "the X server " + options_.display.text() + " was left: " + error.what()};
-    }
-  }
-
-  [[nodiscard]] bool triesAgain(CloseKind kind) const {
-    const bool wanted = options_.retry == Retry::kAlways || (options_.retry == Retry::kLost && everConnected_);
-    return wanted && mayHeal(kind);
-  }
-
-  [[nodiscard]] Clock::duration lasted() const {
-    return connectedSince_ ? Clock::now() - *connectedSince_ : Clock::duration::zero();
-  }
-
   [[noreturn]] void talk(const std::stop_token& stop) {
     const XConnection connection(options_.display, desk_.stopped(), options_.patience);
     hold(connection.fd());
@@ -120,9 +85,7 @@ class LocalSession::Worker {
   }
 
   void announce(const LocalDesktop& desktop) {
-    connectedSince_ = Clock::now();
-    everConnected_ = true;
-    lost_ = false;
+    connection_.connected();
     desk_.open();
     desk_.post({Connected{"X display " + options_.display.text(), desktop.size(), {}}});
   }
@@ -155,10 +118,8 @@ class LocalSession::Worker {
   FileDescriptor socket_;
   std::binary_semaphore finished_{0};
   // The thread's own:
+  Reconnection connection_;
   std::uint64_t updates_ = 0;
-  bool lost_ = false;
-  bool everConnected_ = false;
-  std::optional<Clock::time_point> connectedSince_;
   std::jthread thread_;
 };
 

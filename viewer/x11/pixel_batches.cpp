@@ -1,8 +1,12 @@
 #include "viewer/x11/pixel_batches.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstring>
+#include <vector>
+
+#include "viewer/tiles/batch_writer.h"
 
 namespace pixelflex::viewer {
 namespace {
@@ -23,65 +27,20 @@ void appendPixels(std::span<const std::byte> from, const PixelLayout& layout, st
   }
 }
 
-// Fills batch after batch; every batch but the last leaves when the next row does not fit into it.
-class Packer {
- public:
-  Packer(const PackedUpdate& update, FrameBelt& belt, const std::stop_token& stop)
-      : update_(update), belt_(belt), stop_(stop), left_(update.pixels) {}
-
-  bool add(Box box) {
-    const std::size_t rowBytes = static_cast<std::size_t>(box.width()) * kBytesPerPixel;
-    while (!box.empty()) {
-      const std::size_t room = batch_ == nullptr ? 0 : FrameBelt::kMaxBytes - batch_->pixels.size();
-      const int rows = static_cast<int>(std::min<std::size_t>(room / rowBytes, static_cast<std::size_t>(box.height())));
-      if (rows == 0) {
-        if (!startBatch()) return false;
-        continue;
-      }
-      const std::size_t bytes = rowBytes * static_cast<std::size_t>(rows);
-      appendPixels(left_.first(bytes), update_.layout, batch_->pixels);
-      left_ = left_.subspan(bytes);
-      batch_->boxes.push_back({box.left, box.top, box.right, box.top + rows});
-      box.top += rows;
-    }
-    return true;
-  }
-
-  void finish() {
-    assert(batch_ != nullptr);
-    batch_->completesUpdate = true;
-    belt_.publish(batch_);
-  }
-
- private:
-  bool startBatch() {
-    if (batch_ != nullptr) belt_.publish(batch_);
-    batch_ = belt_.acquire(stop_);
-    if (batch_ == nullptr) return false;
-    batch_->update = update_.serial;
-    batch_->received = update_.received;
-    batch_->desktop = update_.desktop;
-    batch_->pixels.reserve(std::min(left_.size(), FrameBelt::kMaxBytes));
-    return true;
-  }
-
-  const PackedUpdate& update_;
-  FrameBelt& belt_;
-  const std::stop_token& stop_;
-  std::span<const std::byte> left_;
-  Batch* batch_ = nullptr;
-};
-
 }  // namespace
 
 bool publishPacked(const PackedUpdate& update, FrameBelt& belt, const std::stop_token& stop) {
-  static_assert(kBytesPerPixel * 65536 <= FrameBelt::kMaxBytes, "a row must fit into a batch");
   assert(update.pixels.size() == static_cast<std::size_t>(update.damage.area()) * kBytesPerPixel);
-  Packer packer(update, belt, stop);
-  for (const Box& box : update.damage.boxes()) {
-    if (!packer.add(box)) return false;
-  }
-  packer.finish();
+  const BatchWriter::Header header{
+      .update = update.serial, .received = update.received, .desktop = update.desktop, .bytes = update.pixels.size()};
+  std::span<const std::byte> left = update.pixels;
+  BatchWriter writer(header, belt, stop, [&](const Box& rows, std::vector<std::byte>& pixels) {
+    const std::size_t bytes = static_cast<std::size_t>(rows.area()) * kBytesPerPixel;
+    appendPixels(left.first(bytes), update.layout, pixels);
+    left = left.subspan(bytes);
+  });
+  if (!std::ranges::all_of(update.damage.boxes(), [&writer](const Box& box) { return writer.add(box); })) return false;
+  writer.finish();
   return true;
 }
 
