@@ -16,11 +16,6 @@ const std::vector<glm::ivec2> kAsOnTheWall{{100, 90}, {400, 90}, {700, 90}, {100
 
 class DeskTest : public ScreensTest {
  protected:
-  /// The first picture is there when the desktop's new colour is.
-  void waitForPicture(glm::ivec2 place) {
-    paintDesktop("#204060");
-    ASSERT_TRUE(comesTrue([&] { return shows(place + glm::ivec2(5, 5), {0x20, 0x40, 0x60}); })) << log();
-  }
   void moveBy(int dx) { screen_.query({"xdotool", "mousemove_relative", "--", std::to_string(dx), "0"}); }
 
   /// One unbroken line across the whole desktop, along one row.

@@ -52,9 +52,9 @@ class ScreensTest : public ::testing::Test {
     calib::saveWall(wall(), flat);
     desktop_ = std::make_unique<XvncServer>(XvncOptions{.size = {static_cast<int>(places.size()) * kWidth, kHeight}});
   }
-  void startViewer(std::vector<std::string> more = {}) {
-    std::vector<std::string> command = {std::string(PIXELFLEX_BIN_DIR) + "/pixelflex-view", wall().string(),
-                                        desktop_->unixAddress()};
+  void startViewer(std::vector<std::string> more = {}) { startViewerOf(desktop_->unixAddress(), std::move(more)); }
+  void startViewerOf(const std::string& source, std::vector<std::string> more = {}) {
+    std::vector<std::string> command = {std::string(PIXELFLEX_BIN_DIR) + "/pixelflex-view", wall().string(), source};
     command.insert(command.end(), more.begin(), more.end());
     viewer_ = std::make_unique<Process>(
         command, ProcessOptions{.environment = {"DISPLAY=" + screen_.display()}, .log = folder_ / "log"});
@@ -66,6 +66,11 @@ class ScreensTest : public ::testing::Test {
            picture.at(place.x, place.y, 2) == colour[2];
   }
   void paintDesktop(const std::string& colour) { desktop_->x().query({"xsetroot", "-solid", colour}); }
+  /// The first picture is there when the desktop's new colour is.
+  void waitForPicture(glm::ivec2 place) {
+    paintDesktop("#204060");
+    ASSERT_TRUE(comesTrue([&] { return shows(place + glm::ivec2(5, 5), {0x20, 0x40, 0x60}); })) << log();
+  }
   [[nodiscard]] std::string log() const { return textOf(folder_ / "log"); }
   [[nodiscard]] bool logHolds(const std::string& words) const { return log().find(words) != std::string::npos; }
   [[nodiscard]] std::filesystem::path wall() const { return folder_ / "wall"; }
