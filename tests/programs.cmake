@@ -22,6 +22,7 @@ add_dependencies(calibrate_curved_test pixelflex-new pixelflex-calibrate)
 pixelflex_test(view_cli_test LABEL e2e TIMEOUT 240
   SOURCES e2e/view_exact_test.cpp e2e/view_errors_test.cpp e2e/view_idle_test.cpp e2e/view_input_test.cpp
     e2e/view_depth_test.cpp e2e/view_resize_test.cpp e2e/view_lost_test.cpp e2e/view_quit_test.cpp e2e/view_security_test.cpp
+    e2e/view_stats_test.cpp
   LINK pixelflex_test_support pixelflex_store)
 add_dependencies(view_cli_test pixelflex-new pixelflex-calibrate pixelflex-view)
 

@@ -50,9 +50,10 @@ int runHeadless(const ViewOptions& options, const WallPlan& wall) {
   const QuitSignal quit([&] { waker.wake(); });
   devices::HeadlessContext context;
   WallView view(options, wall, context, [&] { waker.wake(); });
-  StatsPrinter stats(options.stats);
+  StatsPrinter stats(options);
   while (!quit.raised()) {
     view.step();
+    view.shown();
     stats.printIfDue(view);
     auto deadline = stats.due();
     if (options.screenshot && view.hasPicture()) {

@@ -2,44 +2,93 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace pixelflex::viewer {
 namespace {
 
+constexpr std::chrono::seconds kWorkPeriod{1};
+constexpr std::chrono::seconds kStagesPeriod{10};
+
 double milliseconds(std::chrono::nanoseconds time) {
   return std::chrono::duration<double, std::milli>(time).count();
 }
 
+RenderStats difference(RenderStats now, const RenderStats& before) {
+  now.bytesUploaded -= before.bytesUploaded;
+  now.outputsDrawn -= before.outputsDrawn;
+  now.pixelsDrawn -= before.pixelsDrawn;
+  now.uploadTime -= before.uploadTime;
+  now.drawTime -= before.drawTime;
+  return now;
+}
+
 }  // namespace
 
+StatsPrinter::StatsPrinter(const ViewOptions& options) : prints_(options.stats) {
+  second_.due = begun_ + kWorkPeriod;
+  tenSeconds_.due = begun_ + kStagesPeriod;
+  if (!options.statsJson) return;
+  json_.emplace(*options.statsJson);
+  if (!*json_) throw ViewError("cannot write to " + *options.statsJson + ": give --stats-json another file");
+}
+
 WallView::Clock::time_point StatsPrinter::due() const {
-  return enabled_ ? due_ : WallView::Clock::time_point::max();
+  if (prints_) return std::min(second_.due, tenSeconds_.due);
+  return json_ ? tenSeconds_.due : Time::max();
+}
+
+Account StatsPrinter::since(const Mark& mark, WallView& view, Time now) const {
+  return {.seconds = std::chrono::duration<double>(now - begun_).count(),
+          .updates = view.updates() - mark.updates,
+          .render = difference(view.renderer().stats(), mark.render),
+          .stages = view.stages().summaryOfLast(view.stages().count() - mark.shown)};
+}
+
+StatsPrinter::Mark StatsPrinter::markOf(WallView& view, Time due) {
+  return {due, view.renderer().stats(), view.updates(), view.stages().count()};
 }
 
 void StatsPrinter::printIfDue(WallView& view) {
-  const auto now = WallView::Clock::now();
-  if (!enabled_ || now < due_) return;
-  due_ = now + kPeriod;
-  const RenderStats stats = view.renderer().stats();
-  if (stats.bytesUploaded == before_.bytesUploaded && stats.outputsDrawn == before_.outputsDrawn) return;
+  const Time now = WallView::Clock::now();
+  if (prints_ && now >= second_.due) {
+    printWork(since(second_, view, now));
+    second_ = markOf(view, now + kWorkPeriod);
+  }
+  if (due() != Time::max() && now >= tenSeconds_.due) {
+    printStages(since(tenSeconds_, view, now));
+    tenSeconds_ = markOf(view, now + kStagesPeriod);
+  }
+}
+
+void StatsPrinter::printWork(const Account& account) const {
+  const RenderStats& done = account.render;
+  if (done.bytesUploaded == 0 && done.outputsDrawn == 0) return;
   fmt::print(stderr,
              "stats: {:7.1f} s  updates {:4}  uploaded {:9.3f} MB  outputs drawn {:4}  pixels {:9.3f} M  "
              "upload {:6.1f} ms  draw {:6.1f} ms\n",
-             std::chrono::duration<double>(now - begun_).count(), view.updates() - updatesBefore_,
-             static_cast<double>(stats.bytesUploaded - before_.bytesUploaded) / 1e6,
-             stats.outputsDrawn - before_.outputsDrawn,
-             static_cast<double>(stats.pixelsDrawn - before_.pixelsDrawn) / 1e6,
-             milliseconds(stats.uploadTime - before_.uploadTime), milliseconds(stats.drawTime - before_.drawTime));
-  before_ = stats;
-  updatesBefore_ = view.updates();
+             account.seconds, account.updates, static_cast<double>(done.bytesUploaded) / 1e6, done.outputsDrawn,
+             static_cast<double>(done.pixelsDrawn) / 1e6, milliseconds(done.uploadTime), milliseconds(done.drawTime));
 }
 
-void StatsPrinter::printTotal(WallView& view) const {
-  if (!enabled_) return;
-  const RenderStats stats = view.renderer().stats();
-  fmt::print(stderr, "stats: total updates {} uploaded {} bytes outputs drawn {} pixels {}\n", view.updates(),
-             stats.bytesUploaded, stats.outputsDrawn, stats.pixelsDrawn);
+void StatsPrinter::printStages(const Account& account) {
+  if (account.stages.updates == 0) return;
+  if (prints_) {
+    fmt::print(stderr, "latency: {:.1f} s  updates {}  median/p99/max ms: {}\n", account.seconds,
+               account.stages.updates, stagesText(account.stages));
+  }
+  if (json_) *json_ << jsonOf(account) << std::endl;
+}
+
+void StatsPrinter::printTotal(WallView& view) {
+  Account total = since({}, view, WallView::Clock::now());
+  total.total = true;
+  if (prints_) {
+    fmt::print(stderr, "stats: total updates {} uploaded {} bytes outputs drawn {} pixels {}\n", total.updates,
+               total.render.bytesUploaded, total.render.outputsDrawn, total.render.pixelsDrawn);
+  }
+  if (prints_ || json_) printStages(total);
 }
 
 }  // namespace pixelflex::viewer

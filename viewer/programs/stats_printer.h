@@ -1,28 +1,45 @@
 #pragma once
 
 #include <chrono>
+#include <fstream>
+#include <optional>
 
+#include "viewer/programs/stats_text.h"
 #include "viewer/programs/wall_view.h"
 
 namespace pixelflex::viewer {
 
-/// `--stats`: a line on stderr each second in which something was uploaded or drawn, and the sum at the end.
+/// `--stats`: a line on stderr each second in which something was uploaded or drawn, one each ten in which updates were
+/// shown on how long they took, and the sums at the end. `--stats-json`: the same each ten seconds and at the end.
 class StatsPrinter {
  public:
-  explicit StatsPrinter(bool enabled) : enabled_(enabled), begun_(WallView::Clock::now()), due_(begun_ + kPeriod) {}
+  /// Throws ViewError when the file cannot be written.
+  explicit StatsPrinter(const ViewOptions& options);
 
   /// When the loop should wake for the next line at the latest.
   [[nodiscard]] WallView::Clock::time_point due() const;
   void printIfDue(WallView& view);
-  void printTotal(WallView& view) const;
+  void printTotal(WallView& view);
 
  private:
-  static constexpr std::chrono::seconds kPeriod{1};
-  bool enabled_;
-  WallView::Clock::time_point begun_;
-  WallView::Clock::time_point due_;
-  RenderStats before_;
-  std::uint64_t updatesBefore_ = 0;
+  using Time = WallView::Clock::time_point;
+  /// A point from which on an account is given.
+  struct Mark {
+    Time due;
+    RenderStats render;
+    std::uint64_t updates = 0;
+    std::uint64_t shown = 0;
+  };
+  [[nodiscard]] Account since(const Mark& mark, WallView& view, Time now) const;
+  [[nodiscard]] static Mark markOf(WallView& view, Time due);
+  void printWork(const Account& account) const;
+  void printStages(const Account& account);
+
+  bool prints_;
+  std::optional<std::ofstream> json_;
+  Time begun_ = WallView::Clock::now();
+  Mark second_;
+  Mark tenSeconds_;
 };
 
 }  // namespace pixelflex::viewer

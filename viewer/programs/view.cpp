@@ -137,7 +137,10 @@ int main(int argc, char** argv) {
                  "the last picture of a server that is gone: dim, mark (with a sign) or keep as it is; else dim")
       ->transform(CLI::CheckedTransformer(pixelflex::viewer::kWhenLost))
       ->option_text("dim|mark|keep");
-  app.add_flag("--stats", options.stats, "print what was uploaded and drawn, and how long it took");
+  app.add_flag("--stats", options.stats,
+               "print what was uploaded and drawn each second, and each ten how long every stage took");
+  app.add_option("--stats-json", options.statsJson, "write the same to FILE, a JSON object a line")
+      ->option_text("FILE");
   try {
     app.parse(argc, argv);
     options.settle = std::chrono::milliseconds(settle);

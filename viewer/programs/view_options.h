@@ -51,7 +51,8 @@ struct ViewOptions {
   std::optional<Retry> retry;  // empty: kNever for a screenshot, else kLost
   WhenLost whenLost = WhenLost::kDim;
   bool stats = false;
-  int depth = 8;  // bits for each colour of a projector's picture: 8 or 10
+  std::optional<std::string> statsJson;  // file
+  int depth = 8;                         // bits for each colour of a projector's picture: 8 or 10
 };
 
 }  // namespace pixelflex::viewer

@@ -79,7 +79,9 @@ WallView::Step WallView::step() {
   for (const auto& event : source_->takeEvents()) handle(event);
   while (Batch* batch = belt_.take()) {
     if (batch->desktop != desktop_) adopt(batch->desktop);
+    const auto begin = Clock::now();
     renderer_.upload(*batch);
+    stages_.uploaded(*batch, begin, Clock::now());
     updateOpen_ = !batch->completesUpdate;
     if (batch->completesUpdate) {
       ++updates_;
@@ -93,7 +95,9 @@ WallView::Step WallView::step() {
   step.plansChanged = std::exchange(plansChanged_, false);
   step.bell = std::exchange(bell_, false);
   step.copied = std::exchange(copiedThere_, std::nullopt);
+  const auto begin = Clock::now();
   step.drawn = renderer_.draw();
+  if (!updateOpen_) stages_.drawn(begin, Clock::now());
   if (!step.drawn.empty()) lastChange_ = Clock::now();
   return step;
 }

@@ -17,6 +17,7 @@
 #include "viewer/programs/wall_reloader.h"
 #include "viewer/renderer/wall_renderer.h"
 #include "viewer/tiles/frame_belt.h"
+#include "viewer/tiles/stage_stats.h"
 #include "viewer/vnc/desktop_source.h"
 
 namespace pixelflex::viewer {
@@ -52,11 +53,15 @@ class WallView {
   };
   /// Takes what has arrived and draws what it touched. Throws ViewError when the session has ended.
   Step step();
+  /// What step() has drawn is on its windows now.
+  void shown() { stages_.shown(Clock::now()); }
 
   /// At least one whole update has been drawn, and the server is there.
   [[nodiscard]] bool hasPicture() const { return hasPicture_ && !lostSince_; }
   [[nodiscard]] Clock::time_point lastChange() const { return lastChange_; }
   [[nodiscard]] std::uint64_t updates() const { return updates_; }
+  /// Times of the updates that were shown.
+  [[nodiscard]] const StageStats& stages() const { return stages_; }
   [[nodiscard]] const std::string& desktopName() const { return desktopName_; }
   [[nodiscard]] devices::Size desktop() const { return desktop_; }
 
@@ -117,6 +122,7 @@ class WallView {
   bool plansChanged_ = false;
   bool updateOpen_ = false;  // half of one is uploaded
   std::uint64_t updates_ = 0;
+  StageStats stages_;
   Clock::time_point lastChange_ = Clock::now();
 };
 

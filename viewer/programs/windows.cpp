@@ -93,13 +93,14 @@ class WallWindows {
   }
 
   int run(const QuitSignal& signal) {
-    StatsPrinter stats(options_.stats);
+    StatsPrinter stats(options_);
     while (!quit_ && !signal.raised()) {
       const auto step = view_.step();
       if (step.plansChanged) roomChanged_ = allSimulated();
       if (monitorsChanged_.exchange(false)) projectors_.follow(devices::listMonitors(loop_));
       present(step.drawn);
       presentRoom();
+      view_.shown();
       if (step.copied && clipboard_) clipboard_->set(*step.copied);
       if (step.bell) watch_.ringBell();
       stats.printIfDue(view_);

@@ -47,6 +47,8 @@ bool BatchWriter::startBatch() {
   if (batch_ == nullptr) return false;
   batch_->update = header_.update;
   batch_->received = header_.received;
+  batch_->decoded = decoded_;
+  batch_->decoding = header_.decoding;
   batch_->desktop = header_.desktop;
   batch_->pixels.reserve(std::min(bytesLeft_, FrameBelt::kMaxBytes));
   return true;

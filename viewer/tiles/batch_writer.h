@@ -18,13 +18,14 @@ class BatchWriter {
   struct Header {
     std::uint64_t update = 0;
     std::chrono::steady_clock::time_point received;
+    std::chrono::nanoseconds decoding{0};  // as the batch has it
     devices::Size desktop;
     std::size_t bytes = 0;  // of all its pixels
   };
   /// Appends the pixels of these rows, four bytes each.
   using AppendRows = std::function<void(const Box& rows, std::vector<std::byte>& pixels)>;
 
-  /// The belt must outlive this.
+  /// The update counts as decoded from here on. The belt must outlive this.
   BatchWriter(const Header& header, FrameBelt& belt, std::stop_token stop, AppendRows append);
 
   /// False when stopped; the update then never completes.
@@ -39,6 +40,7 @@ class BatchWriter {
   FrameBelt& belt_;
   std::stop_token stop_;
   AppendRows append_;
+  std::chrono::steady_clock::time_point decoded_ = std::chrono::steady_clock::now();
   std::size_t bytesLeft_;
   Batch* batch_ = nullptr;
 };

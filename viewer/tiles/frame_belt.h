@@ -18,9 +18,11 @@ namespace pixelflex::viewer {
 /// A part of one server update on its way to the GPU. Pixels are 4 bytes each, red, green, blue, undefined; the boxes'
 /// rows follow each other without padding, box after box.
 struct Batch {
-  std::uint64_t update = 0;  // serial number of the server's update
-  std::chrono::steady_clock::time_point received;
-  devices::Size desktop;  // a change of size makes the whole desktop damaged
+  std::uint64_t update = 0;                        // serial number of the server's update
+  std::chrono::steady_clock::time_point received;  // when the update's first byte was there
+  std::chrono::steady_clock::time_point decoded;   // when the whole update was
+  std::chrono::nanoseconds decoding{0};            // processor time that it took in between
+  devices::Size desktop;                           // a change of size makes the whole desktop damaged
   std::vector<Box> boxes;
   std::vector<std::byte> pixels;
   bool completesUpdate = false;  // only then may the wall change: never half an update

@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "viewer/tiles/thread_time.h"
 #include "viewer/vnc/connector.h"
 #include "viewer/vnc/liveness.h"
 #include "viewer/vnc/reconnection.h"
@@ -130,13 +131,14 @@ class Session::Worker {
   // True when a whole update came.
   bool receive(RfbClient& client, const std::stop_token& stop) {
     const auto received = Clock::now();
+    const auto before = threadTime();
     client.handleMessage();
     if (options_.claimPointer && !options_.viewOnly) client.claimPointer();
     desk_.post(client.takeEvents());
     std::optional<Region> damage = client.takeFinishedUpdate();
     if (!damage) return false;
     if (damage->empty()) return true;
-    const Update update{++updates_, received, *std::move(damage)};
+    const Update update{++updates_, received, *std::move(damage), threadTime() - before};
     if (!publishUpdate(client.frame(), update, belt_, stop)) throw SessionStopped{};
     return true;
   }

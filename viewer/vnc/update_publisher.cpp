@@ -27,6 +27,7 @@ bool publishUpdate(const FrameView& frame, const Update& update, FrameBelt& belt
   if (update.damage.empty()) return true;
   const BatchWriter::Header header{.update = update.serial,
                                    .received = update.received,
+                                   .decoding = update.decoding,
                                    .desktop = frame.size,
                                    .bytes = static_cast<std::size_t>(update.damage.area()) * kBytesPerPixel};
   BatchWriter writer(header, belt, stop, [&frame](const Box& rows, std::vector<std::byte>& pixels) {

@@ -22,6 +22,7 @@ struct Update {
   std::uint64_t serial = 0;
   std::chrono::steady_clock::time_point received;  // when its first byte was there
   Region damage;                                   // inside the frame
+  std::chrono::nanoseconds decoding{0};            // processor time since then
 };
 
 /// Copies the damaged pixels once onto the belt, in as many batches of at most FrameBelt::kMaxBytes as it takes; the

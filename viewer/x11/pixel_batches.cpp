@@ -31,8 +31,11 @@ void appendPixels(std::span<const std::byte> from, const PixelLayout& layout, st
 
 bool publishPacked(const PackedUpdate& update, FrameBelt& belt, const std::stop_token& stop) {
   assert(update.pixels.size() == static_cast<std::size_t>(update.damage.area()) * kBytesPerPixel);
-  const BatchWriter::Header header{
-      .update = update.serial, .received = update.received, .desktop = update.desktop, .bytes = update.pixels.size()};
+  const BatchWriter::Header header{.update = update.serial,
+                                   .received = update.received,
+                                   .decoding = update.decoding,
+                                   .desktop = update.desktop,
+                                   .bytes = update.pixels.size()};
   std::span<const std::byte> left = update.pixels;
   BatchWriter writer(header, belt, stop, [&](const Box& rows, std::vector<std::byte>& pixels) {
     const std::size_t bytes = static_cast<std::size_t>(rows.area()) * kBytesPerPixel;

@@ -26,6 +26,7 @@ struct PackedUpdate {
   Region damage;  // not empty
   std::span<const std::byte> pixels;
   PixelLayout layout;
+  std::chrono::nanoseconds decoding{0};  // processor time since it was received
 };
 
 /// Copies the pixels once, as red, green, blue and a byte without meaning, onto the belt, in as many batches of at most

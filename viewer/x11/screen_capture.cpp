@@ -9,6 +9,7 @@
 #include <bit>
 #include <cassert>
 
+#include "viewer/tiles/thread_time.h"
 #include "viewer/vnc/session_error.h"
 
 namespace pixelflex::viewer {
@@ -125,6 +126,7 @@ void ScreenCapture::adopt(devices::Size size) {
 
 bool ScreenCapture::publish(std::uint64_t serial, FrameBelt& belt, const std::stop_token& stop) {
   const auto received = std::chrono::steady_clock::now();
+  const auto before = threadTime();
   Region damage = takeDamage();
   if (damage.empty()) return false;
   if (!fetch(damage)) {
@@ -135,7 +137,8 @@ bool ScreenCapture::publish(std::uint64_t serial, FrameBelt& belt, const std::st
   }
   failures_ = 0;
   const auto bytes = static_cast<std::size_t>(damage.area()) * kBytesPerPixel;
-  const PackedUpdate update{serial, received, size_, std::move(damage), pixels_.bytes().first(bytes), layout_};
+  const PackedUpdate update{
+      serial, received, size_, std::move(damage), pixels_.bytes().first(bytes), layout_, threadTime() - before};
   if (!publishPacked(update, belt, stop)) throw SessionStopped{};
   return true;
 }

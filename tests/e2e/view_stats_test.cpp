@@ -1,0 +1,65 @@
+// What a viewer tells about its work.
+#include <gmock/gmock.h>
+
+#include <regex>
+
+#include "tests/e2e/programs.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/x_servers.h"
+
+namespace pixelflex::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+class ViewStats : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_EQ(runProgram("new", {wall_, "--flat", "2x1:320x240"}).status, 0); }
+  Output shoot(std::vector<std::string> more) {
+    std::vector<std::string> arguments = {
+        wall_, server_.unixAddress(), "--headless", "--screenshot", (folder_ / "shot").string(), "--settle", "200"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runProgram("view", arguments);
+  }
+
+  TemporaryFolder folder_;
+  std::string wall_ = (folder_ / "wall").string();
+  XvncServer server_{{.size = {640, 240}}};
+};
+
+TEST_F(ViewStats, LinesTellOfEveryStage) {
+  const Output shown = shoot({"--stats"});
+  ASSERT_EQ(shown.status, 0) << shown.text;
+  const std::string triple = R"( \d+\.\d/\d+\.\d/\d+\.\d)";
+  std::string line = R"(latency: \d+\.\d s  updates [1-9]\d*  median/p99/max ms: )";
+  for (const std::string stage : {"receive", "decode", "queue", "upload", "draw", "swap"})
+    line += stage + triple + "  ";
+  EXPECT_TRUE(std::regex_search(shown.text, std::regex(line + "total" + triple + "\n"))) << shown.text;
+}
+
+TEST_F(ViewStats, JsonTellsTheSum) {
+  const std::filesystem::path file = folder_ / "stats.json";
+  const Output shown = shoot({"--stats-json", file.string()});
+  ASSERT_EQ(shown.status, 0) << shown.text;
+  EXPECT_THAT(shown.text, ::testing::Not(HasSubstr("latency:")));
+  const std::string json = textOf(file);
+  const std::string figures = R"(\{"median":\d+\.\d{3},"p99":\d+\.\d{3},"max":\d+\.\d{3}\})";
+  std::string line = R"(\{"seconds":\d+\.\d{3},"total":true,"updates":(\d+),"bytes_uploaded":(\d+),)";
+  line += R"("outputs_drawn":([2-9]|\d\d+),"pixels_drawn":\d+,"timed_updates":(\d+),"stages_ms":\{)";
+  for (const std::string stage : {"receive", "decode", "queue", "upload", "draw", "swap"}) {
+    line += "\"" + stage + "\":" + figures + ",";
+  }
+  std::smatch told;
+  ASSERT_TRUE(std::regex_match(json, told, std::regex(line + "\"total\":" + figures + R"(\}\}\n)"))) << json;
+  EXPECT_EQ(told[1], told[4]);
+  EXPECT_GE(std::stoul(told[2]), 640U * 240U * 4U);
+}
+
+TEST_F(ViewStats, AFileThatCannotBeWrittenIsSaid) {
+  const Output shown = shoot({"--stats-json", (folder_ / "nowhere" / "stats.json").string()});
+  EXPECT_EQ(shown.status, 1);
+  EXPECT_THAT(shown.text, HasSubstr("pixelflex-view: cannot write to"));
+}
+
+}  // namespace
+}  // namespace pixelflex::testing

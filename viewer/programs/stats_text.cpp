@@ -1,0 +1,39 @@
+#include "viewer/programs/stats_text.h"
+
+#include <fmt/format.h>
+
+namespace pixelflex::viewer {
+namespace {
+
+double milliseconds(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double, std::milli>(time).count();
+}
+
+}  // namespace
+
+std::string stagesText(const StageSummary& stages) {
+  std::string text;
+  for (std::size_t i = 0; i < kStages; ++i) {
+    const StageFigures& figures = stages.stages[i];
+    text += fmt::format("{}{} {:.1f}/{:.1f}/{:.1f}", i == 0 ? "" : "  ", nameOf(static_cast<Stage>(i)),
+                        milliseconds(figures.median), milliseconds(figures.p99), milliseconds(figures.max));
+  }
+  return text;
+}
+
+std::string jsonOf(const Account& account) {
+  std::string stages;
+  for (std::size_t i = 0; i < kStages; ++i) {
+    const StageFigures& figures = account.stages.stages[i];
+    stages += fmt::format(R"({}"{}":{{"median":{:.3f},"p99":{:.3f},"max":{:.3f}}})", i == 0 ? "" : ",",
+                          nameOf(static_cast<Stage>(i)), milliseconds(figures.median), milliseconds(figures.p99),
+                          milliseconds(figures.max));
+  }
+  return fmt::format(
+      R"({{"seconds":{:.3f},"total":{},"updates":{},"bytes_uploaded":{},"outputs_drawn":{},"pixels_drawn":{},)"
+      R"("timed_updates":{},"stages_ms":{{{}}}}})",
+      account.seconds, account.total, account.updates, account.render.bytesUploaded, account.render.outputsDrawn,
+      account.render.pixelsDrawn, account.stages.updates, stages);
+}
+
+}  // namespace pixelflex::viewer
