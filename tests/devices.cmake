@@ -1,0 +1,13 @@
+# Lines to devices, drivers and the simulators of devices.
+pixelflex_library(pixelflex_device_support
+  HEADERS support_devices/scripted_server.h
+  SOURCES support_devices/scripted_server.cpp
+  PRIVATE Threads::Threads)
+
+pixelflex_test(transport_test LABEL unit
+  SOURCES unit/transport_address_test.cpp unit/transport_line_test.cpp
+  LINK pixelflex_device_support pixelflex_transport)
+
+pixelflex_test(pan_tilt_test LABEL unit
+  SOURCES unit/pan_tilt_simulator_test.cpp
+  LINK pixelflex_device_support pixelflex_device_simulators)
