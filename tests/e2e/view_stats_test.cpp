@@ -3,6 +3,7 @@
 
 #include <regex>
 
+#include "devices/image/png_file.h"
 #include "tests/e2e/programs.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/x_servers.h"
@@ -15,9 +16,9 @@ using ::testing::HasSubstr;
 class ViewStats : public ::testing::Test {
  protected:
   void SetUp() override { ASSERT_EQ(runProgram("new", {wall_, "--flat", "2x1:320x240"}).status, 0); }
-  Output shoot(std::vector<std::string> more) {
+  Output shoot(std::vector<std::string> more, const std::string& settle = "200") {
     std::vector<std::string> arguments = {
-        wall_, server_.unixAddress(), "--headless", "--screenshot", (folder_ / "shot").string(), "--settle", "200"};
+        wall_, server_.unixAddress(), "--headless", "--screenshot", (folder_ / "shot").string(), "--settle", settle};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return runProgram("view", arguments);
   }
@@ -53,6 +54,24 @@ TEST_F(ViewStats, JsonTellsTheSum) {
   ASSERT_TRUE(std::regex_match(json, told, std::regex(line + "\"total\":" + figures + R"(\}\}\n)"))) << json;
   EXPECT_EQ(told[1], told[4]);
   EXPECT_GE(std::stoul(told[2]), 640U * 240U * 4U);
+}
+
+TEST_F(ViewStats, APanelIsOnTheFirstProjectorAndThenAllSleeps) {
+  const Output shown = shoot({"--stats=overlay", "--show-damage"}, "1600");
+  ASSERT_EQ(shown.status, 0) << shown.text;
+  EXPECT_THAT(shown.text, ::testing::Not(HasSubstr("stats:")));
+  const devices::Image8 desktop = devices::readPng8((folder_ / "shot" / "desktop.png").string());
+  const auto differing = [&](const std::string& projector, int left) {
+    const devices::Image8 frame = devices::readPng8((folder_ / "shot" / (projector + ".png")).string());
+    int count = 0;
+    for (int y = 0; y < 240; ++y) {
+      for (int x = 0; x < 320; ++x)
+        count += std::equal(&frame.at(x, y), &frame.at(x, y) + 3, &desktop.at(left + x, y)) ? 0 : 1;
+    }
+    return count;
+  };
+  EXPECT_GT(differing("p1", 0), 500);
+  EXPECT_EQ(differing("p2", 320), 0);
 }
 
 TEST_F(ViewStats, AFileThatCannotBeWrittenIsSaid) {

@@ -52,10 +52,10 @@ int runHeadless(const ViewOptions& options, const WallPlan& wall) {
   WallView view(options, wall, context, [&] { waker.wake(); });
   StatsPrinter stats(options);
   while (!quit.raised()) {
+    stats.printIfDue(view);
     view.step();
     view.shown();
-    stats.printIfDue(view);
-    auto deadline = stats.due();
+    auto deadline = std::min(stats.due(), view.due());
     if (options.screenshot && view.hasPicture()) {
       const auto settled = view.lastChange() + options.settle;
       if (WallView::Clock::now() >= settled) {

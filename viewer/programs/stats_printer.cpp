@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "viewer/renderer/text_panel.h"
+
 namespace pixelflex::viewer {
 namespace {
 
@@ -26,7 +28,7 @@ RenderStats difference(RenderStats now, const RenderStats& before) {
 
 }  // namespace
 
-StatsPrinter::StatsPrinter(const ViewOptions& options) : prints_(options.stats) {
+StatsPrinter::StatsPrinter(const ViewOptions& options) : prints_(options.stats), overlays_(options.statsOverlay) {
   second_.due = begun_ + kWorkPeriod;
   tenSeconds_.due = begun_ + kStagesPeriod;
   if (!options.statsJson) return;
@@ -35,8 +37,9 @@ StatsPrinter::StatsPrinter(const ViewOptions& options) : prints_(options.stats) 
 }
 
 WallView::Clock::time_point StatsPrinter::due() const {
-  if (prints_) return std::min(second_.due, tenSeconds_.due);
-  return json_ ? tenSeconds_.due : Time::max();
+  const Time second = prints_ || overlays_ ? second_.due : Time::max();
+  const Time tenSeconds = prints_ || json_ ? tenSeconds_.due : Time::max();
+  return std::min(second, tenSeconds);
 }
 
 Account StatsPrinter::since(const Mark& mark, WallView& view, Time now) const {
@@ -52,11 +55,13 @@ StatsPrinter::Mark StatsPrinter::markOf(WallView& view, Time due) {
 
 void StatsPrinter::printIfDue(WallView& view) {
   const Time now = WallView::Clock::now();
-  if (prints_ && now >= second_.due) {
-    printWork(since(second_, view, now));
+  if ((prints_ || overlays_) && now >= second_.due) {
+    const Account account = since(second_, view, now);
+    if (prints_) printWork(account);
+    if (overlays_) showPanel(account, view);
     second_ = markOf(view, now + kWorkPeriod);
   }
-  if (due() != Time::max() && now >= tenSeconds_.due) {
+  if ((prints_ || json_) && now >= tenSeconds_.due) {
     printStages(since(tenSeconds_, view, now));
     tenSeconds_ = markOf(view, now + kStagesPeriod);
   }
@@ -70,6 +75,14 @@ void StatsPrinter::printWork(const Account& account) const {
              "upload {:6.1f} ms  draw {:6.1f} ms\n",
              account.seconds, account.updates, static_cast<double>(done.bytesUploaded) / 1e6, done.outputsDrawn,
              static_cast<double>(done.pixelsDrawn) / 1e6, milliseconds(done.uploadTime), milliseconds(done.drawTime));
+}
+
+void StatsPrinter::showPanel(const Account& account, WallView& view) {
+  WallRenderer& renderer = view.renderer();
+  if (account.stages.updates == 0 || renderer.outputCount() == 0) return;
+  constexpr int kWidthPerScale = 800;  // of projectors whose pixels are about as large
+  const int scale = std::max(1, renderer.outputResolution(0).width / kWidthPerScale);
+  renderer.setPanel(0, textPanel(panelText(account), scale));
 }
 
 void StatsPrinter::printStages(const Account& account) {

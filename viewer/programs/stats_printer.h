@@ -10,7 +10,8 @@
 namespace pixelflex::viewer {
 
 /// `--stats`: a line on stderr each second in which something was uploaded or drawn, one each ten in which updates were
-/// shown on how long they took, and the sums at the end. `--stats-json`: the same each ten seconds and at the end.
+/// shown on how long they took, and the sums at the end. `--stats=overlay`: a panel on the first projector, brought up
+/// to date each second in which updates were shown. `--stats-json`: the same each ten seconds and at the end.
 class StatsPrinter {
  public:
   /// Throws ViewError when the file cannot be written.
@@ -34,8 +35,10 @@ class StatsPrinter {
   [[nodiscard]] static Mark markOf(WallView& view, Time due);
   void printWork(const Account& account) const;
   void printStages(const Account& account);
+  void showPanel(const Account& account, WallView& view);
 
   bool prints_;
+  bool overlays_;
   std::optional<std::ofstream> json_;
   Time begun_ = WallView::Clock::now();
   Mark second_;

@@ -21,6 +21,18 @@ std::string stagesText(const StageSummary& stages) {
   return text;
 }
 
+std::vector<std::string> panelText(const Account& account) {
+  std::vector<std::string> lines = {fmt::format("updates {:3}  drawn {:.1f} Mpx", account.updates,
+                                                static_cast<double>(account.render.pixelsDrawn) / 1e6),
+                                    fmt::format("ms      {:>8}{:>8}{:>8}", "median", "p99", "max")};
+  for (std::size_t i = 0; i < kStages; ++i) {
+    const StageFigures& figures = account.stages.stages[i];
+    lines.push_back(fmt::format("{:8}{:8.1f}{:8.1f}{:8.1f}", nameOf(static_cast<Stage>(i)),
+                                milliseconds(figures.median), milliseconds(figures.p99), milliseconds(figures.max)));
+  }
+  return lines;
+}
+
 std::string jsonOf(const Account& account) {
   std::string stages;
   for (std::size_t i = 0; i < kStages; ++i) {

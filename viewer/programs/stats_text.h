@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "viewer/renderer/wall_renderer.h"
 #include "viewer/tiles/stage_stats.h"
@@ -19,6 +20,9 @@ struct Account {
   StageSummary stages;
   bool total = false;  // of all that was done
 };
+
+/// A table of the stages for a panel, under the number of updates.
+[[nodiscard]] std::vector<std::string> panelText(const Account& account);
 
 /// One JSON object without line breaks:
 /// {"seconds":S,"total":false,"updates":N,"bytes_uploaded":N,"outputs_drawn":N,"pixels_drawn":N,"timed_updates":N,

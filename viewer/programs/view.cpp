@@ -137,13 +137,19 @@ int main(int argc, char** argv) {
                  "the last picture of a server that is gone: dim, mark (with a sign) or keep as it is; else dim")
       ->transform(CLI::CheckedTransformer(pixelflex::viewer::kWhenLost))
       ->option_text("dim|mark|keep");
-  app.add_flag("--stats", options.stats,
-               "print what was uploaded and drawn each second, and each ten how long every stage took");
+  std::string stats;
+  app.add_flag("--stats{log}", stats,
+               "print what was uploaded and drawn each second, and each ten how long every stage took; "
+               "--stats=overlay: shown on the first projector instead")
+      ->check(CLI::IsMember({"log", "overlay"}));
   app.add_option("--stats-json", options.statsJson, "write the same to FILE, a JSON object a line")
       ->option_text("FILE");
+  app.add_flag("--show-damage", options.showDamage, "show what is drawn again by borders that fade");
   try {
     app.parse(argc, argv);
     options.settle = std::chrono::milliseconds(settle);
+    options.stats = stats == "log";
+    options.statsOverlay = stats == "overlay";
     if (!region.empty()) options.fit.region = pixelflex::viewer::parseRegion(region);
     using pixelflex::viewer::Resize;
     if (resize) options.resize = screens == "one" ? Resize::kOneScreen : Resize::kScreenPerProjector;

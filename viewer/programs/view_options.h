@@ -51,6 +51,8 @@ struct ViewOptions {
   std::optional<Retry> retry;  // empty: kNever for a screenshot, else kLost
   WhenLost whenLost = WhenLost::kDim;
   bool stats = false;
+  bool statsOverlay = false;  // on the first projector
+  bool showDamage = false;
   std::optional<std::string> statsJson;  // file
   int depth = 8;                         // bits for each colour of a projector's picture: 8 or 10
 };

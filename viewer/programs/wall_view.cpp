@@ -16,6 +16,9 @@
 namespace pixelflex::viewer {
 namespace {
 
+// Of --show-damage; a border is there for half a second.
+constexpr std::chrono::milliseconds kFadeStep{100};
+
 Retry retryOf(const ViewOptions& options) {
   return options.retry.value_or(options.screenshot ? Retry::kNever : Retry::kLost);
 }
@@ -52,6 +55,7 @@ WallView::WallView(const ViewOptions& options, const WallPlan& wall, devices::Gl
       wake_(wake),
       source_(openSource()),
       reloader_(options, wall, wake) {
+  renderer_.showDamage(options.showDamage);
   // What a screenshot shows is the desktop, as a screenshot taken on the server does.
   if (options.screenshot) renderer_.showCursor(false);
 }
@@ -96,10 +100,16 @@ WallView::Step WallView::step() {
   step.bell = std::exchange(bell_, false);
   step.copied = std::exchange(copiedThere_, std::nullopt);
   const auto begin = Clock::now();
+  if (renderer_.fading() && begin >= fadeDue_) renderer_.fadeDamage();
   step.drawn = renderer_.draw();
   if (!updateOpen_) stages_.drawn(begin, Clock::now());
+  if (renderer_.fading() && begin >= fadeDue_) fadeDue_ = begin + kFadeStep;
   if (!step.drawn.empty()) lastChange_ = Clock::now();
   return step;
+}
+
+WallView::Clock::time_point WallView::due() const {
+  return renderer_.fading() ? std::min(ringUntil_, fadeDue_) : ringUntil_;
 }
 
 void WallView::handle(const SessionEvent& event) {

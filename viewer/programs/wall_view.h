@@ -76,7 +76,7 @@ class WallView {
   /// Draws a ring around it for a second.
   void findPointer();
   /// When step() has something to do although nothing arrives.
-  [[nodiscard]] Clock::time_point due() const { return ringUntil_; }
+  [[nodiscard]] Clock::time_point due() const;
   /// The output that shows the whole desktop, see ViewOptions::control: after those of the projectors.
   [[nodiscard]] std::size_t controlOutput() const { return wall().projectors().size(); }
 
@@ -111,6 +111,7 @@ class WallView {
   devices::Size desktop_;
   std::string desktopName_;
   glm::ivec2 pointer_{0, 0};
+  Clock::time_point fadeDue_;  // of the borders around damage
   Clock::time_point ringUntil_ = Clock::time_point::max();
   std::mutex copiedMutex_;
   std::string copiedHere_;  // under the mutex: unless something was copied on the desktop since

@@ -95,6 +95,7 @@ class WallWindows {
   int run(const QuitSignal& signal) {
     StatsPrinter stats(options_);
     while (!quit_ && !signal.raised()) {
+      stats.printIfDue(view_);
       const auto step = view_.step();
       if (step.plansChanged) roomChanged_ = allSimulated();
       if (monitorsChanged_.exchange(false)) projectors_.follow(devices::listMonitors(loop_));
@@ -103,7 +104,6 @@ class WallWindows {
       view_.shown();
       if (step.copied && clipboard_) clipboard_->set(*step.copied);
       if (step.bell) watch_.ringBell();
-      stats.printIfDue(view_);
       if (screenshotDone()) break;
       wait(stats.due());
     }

@@ -138,11 +138,15 @@ std::uint64_t Output::draw(DesktopTexture& desktop, const Cursor& cursor, WarpPr
   glBindTextureUnit(kCursorUnit, cursor.texture());
   light_.bind();
   if (variant_.dither) glBindTextureUnit(kNoiseUnit, programs.ditherTile());
+  overlay_.note(marked_, stale_);
+  for (const auto& box : stale_.boxes()) marked_.add(intersect(box, boxOf(resolution_)));
+  stale_.clear();
   std::uint64_t pixels = 0;
   for (const auto& box : marked_.boxes()) {
     drawBox(box, desktop, cursor, programs);
     pixels += static_cast<std::uint64_t>(box.area());
   }
+  for (const auto& box : marked_.boxes()) overlay_.draw(box, programs);
   marked_.clear();
   return pixels;
 }

@@ -5,6 +5,7 @@
 #include "devices/display/gl_handle.h"
 #include "viewer/renderer/cursor.h"
 #include "viewer/renderer/desktop_texture.h"
+#include "viewer/renderer/frame_overlay.h"
 #include "viewer/renderer/mesh_footprint.h"
 #include "viewer/renderer/output_light.h"
 #include "viewer/renderer/output_plan.h"
@@ -29,7 +30,13 @@ class Output {
   /// The projector pixels that read these desktop pixels will be drawn again.
   void mark(const Box& desktopBox);
   void markAll();
-  [[nodiscard]] bool marked() const { return !marked_.empty(); }
+  [[nodiscard]] bool marked() const { return !marked_.empty() || !stale_.empty(); }
+
+  /// See FrameOverlay: what lies over the frame.
+  void setPanel(const devices::Image8& panel) { overlay_.setPanel(panel, stale_); }
+  void showDamage(bool shown) { overlay_.showDamage(shown, stale_); }
+  void fadeDamage() { overlay_.fade(stale_); }
+  [[nodiscard]] bool fading() const { return overlay_.fading(); }
 
   /// How much of the desktop's light is shown, 0 to 1, from the next draw() on. Marks the whole frame.
   void setBrightness(float brightness);
@@ -68,6 +75,8 @@ class Output {
   OutputLight light_;
   MeshFootprint footprint_;
   Region marked_;
+  Region stale_;  // marked because of the overlay alone
+  FrameOverlay overlay_;
   devices::GlTexture frame_;
   devices::GlFramebuffer framebuffer_;
   devices::GlBuffer vertices_;

@@ -79,6 +79,8 @@ bool WallRenderer::setPlans(const std::vector<OutputPlan>& plans) {
     updateOpen_ = false;
   }
   outputs_ = std::move(outputs);
+  for (auto& output : outputs_) output.showDamage(showsDamage_);
+  if (panelOutput_ < outputs_.size()) outputs_[panelOutput_].setPanel(panel_);
   return lost;
 }
 
@@ -134,6 +136,27 @@ void WallRenderer::setBrightness(float brightness) {
   if (brightness == brightness_) return;
   brightness_ = brightness;
   for (auto& output : outputs_) output.setBrightness(brightness);
+}
+
+void WallRenderer::setPanel(std::size_t output, const devices::Image8& panel) {
+  context_.makeCurrent();
+  if (output != panelOutput_ && panelOutput_ < outputs_.size()) outputs_[panelOutput_].setPanel({});
+  panelOutput_ = output;
+  panel_ = panel;
+  if (output < outputs_.size()) outputs_[output].setPanel(panel);
+}
+
+void WallRenderer::showDamage(bool shown) {
+  showsDamage_ = shown;
+  for (auto& output : outputs_) output.showDamage(shown);
+}
+
+void WallRenderer::fadeDamage() {
+  for (auto& output : outputs_) output.fadeDamage();
+}
+
+bool WallRenderer::fading() const {
+  return std::ranges::any_of(outputs_, &Output::fading);
 }
 
 void WallRenderer::markAll() {

@@ -63,6 +63,15 @@ class WallRenderer {
   /// How much of the desktop's light is shown, 0 to 1; 1 leaves every pixel as it is. Black levels stay.
   void setBrightness(float brightness);
 
+  /// Lays text over an output's frame, see textPanel(); an empty image takes it away. Stays with the output's number.
+  void setPanel(std::size_t output, const devices::Image8& panel);
+  /// Borders around what is drawn from here on, which fade with each fadeDamage().
+  void showDamage(bool shown);
+  /// Marks what that changes.
+  void fadeDamage();
+  /// There are borders.
+  [[nodiscard]] bool fading() const;
+
   void markAll();
   /// Something is marked and no update is half way in: draw() would draw.
   [[nodiscard]] bool needsDraw() const;
@@ -100,6 +109,9 @@ class WallRenderer {
   std::vector<Output> outputs_;
   Cursor cursor_;
   float brightness_ = 1;
+  bool showsDamage_ = false;
+  std::size_t panelOutput_ = 0;
+  devices::Image8 panel_;
   bool updateOpen_ = false;
   RenderStats stats_;
   std::uint64_t bytesOfOldDesktops_ = 0;

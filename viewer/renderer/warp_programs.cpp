@@ -41,6 +41,14 @@ const devices::GlProgram& WarpPrograms::get(const WarpVariant& variant) {
   return programs_.emplace(definitions, build(variant, definitions)).first->second;
 }
 
+const devices::GlProgram& WarpPrograms::overlay() {
+  if (!overlay_) {
+    overlay_.emplace("overlay", devices::ShaderPieces{shaders::kFullscreenVert},
+                     devices::ShaderPieces{shaders::kOverlayFrag});
+  }
+  return *overlay_;
+}
+
 devices::GlName WarpPrograms::ditherTile() {
   if (!ditherTile_) {
     static const devices::Image8 tile = makeDitherTile();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "devices/display/gl_handle.h"
@@ -30,11 +31,14 @@ struct WarpVariant {
 class WarpPrograms {
  public:
   [[nodiscard]] const devices::GlProgram& get(const WarpVariant& variant);
+  /// shaders/overlay.frag, over the whole viewport.
+  [[nodiscard]] const devices::GlProgram& overlay();
   /// GL_TEXTURE_2D of makeDitherTile().
   [[nodiscard]] devices::GlName ditherTile();
 
  private:
   devices::GlTexture ditherTile_;
+  std::optional<devices::GlProgram> overlay_;
   std::map<std::string, devices::GlProgram> programs_;  // by the definitions in front
 };
 
