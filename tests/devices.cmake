@@ -9,5 +9,5 @@ pixelflex_test(transport_test LABEL unit
   LINK pixelflex_device_support pixelflex_transport)
 
 pixelflex_test(pan_tilt_test LABEL unit
-  SOURCES unit/pan_tilt_simulator_test.cpp
-  LINK pixelflex_device_support pixelflex_device_simulators)
+  SOURCES unit/pan_tilt_reply_test.cpp unit/pan_tilt_simulator_test.cpp unit/pan_tilt_unit_test.cpp
+  LINK pixelflex_device_host pixelflex_pan_tilt)

@@ -1,3 +1,4 @@
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <termios.h>
 
@@ -134,7 +135,10 @@ class SerialChannel : public Channel {
  public:
   SerialChannel(asio::io_context& context, LineAddress address)
       : address_(std::move(address)), pump_(std::make_shared<Pump<asio::serial_port>>(context)) {}
-  ~SerialChannel() override { pump_->close(); }
+  ~SerialChannel() override {
+    if (pump_->stream().is_open()) ::ioctl(pump_->stream().native_handle(), TIOCNXCL);
+    pump_->close();
+  }
   SerialChannel(const SerialChannel&) = delete;
   SerialChannel& operator=(const SerialChannel&) = delete;
 
@@ -166,9 +170,15 @@ class SerialChannel : public Channel {
     if (!error) port.set_option(Port::parity(parity), error);
     if (!error) port.set_option(Port::stop_bits(stop), error);
     if (!error) port.set_option(Port::flow_control(Port::flow_control::none), error);
-    // Two programs on one line would read each other's replies.
-    if (!error) ::ioctl(port.native_handle(), TIOCEXCL);
-    if (!error) ::tcflush(port.native_handle(), TCIOFLUSH);
+    if (error) return;
+    // Two programs on one line would read each other's replies. The first holds for root as well, the second for
+    // programs that do not ask.
+    if (::flock(port.native_handle(), LOCK_EX | LOCK_NB) != 0) {
+      error = error_code(EBUSY, boost::system::system_category());
+      return;
+    }
+    ::ioctl(port.native_handle(), TIOCEXCL);
+    ::tcflush(port.native_handle(), TCIOFLUSH);
   }
 
   LineAddress address_;
