@@ -32,10 +32,12 @@ pixelflex_test(desktop_test LABEL e2e TIMEOUT 240
 add_dependencies(desktop_test pixelflex-new pixelflex-desktop pixelflex-view)
 
 pixelflex_test(view_pointer_test LABEL unit
-  SOURCES unit/view_pointer_test.cpp ${PROJECT_SOURCE_DIR}/viewer/programs/control_taps.cpp)
+  SOURCES unit/view_pointer_test.cpp ${PROJECT_SOURCE_DIR}/viewer/programs/control_taps.cpp
+    ${PROJECT_SOURCE_DIR}/viewer/programs/pointer_shake.cpp)
 
 # Windows on one X server, the desktop on another.
 pixelflex_test(view_desk_test LABEL e2e TIMEOUT 240
-  SOURCES e2e/view_clipboard_test.cpp e2e/view_desk_test.cpp e2e/view_outputs_test.cpp e2e/view_screens.h support/paint_client.cpp support/paint_client.h
+  SOURCES e2e/view_clipboard_test.cpp e2e/view_desk_test.cpp e2e/view_gestures_test.cpp e2e/view_outputs_test.cpp e2e/view_screens.h support/paint_client.cpp support/paint_client.h
+    support/x_shortcut.cpp support/x_shortcut.h
   LINK pixelflex_test_support pixelflex_store X11::X11)
 add_dependencies(view_desk_test pixelflex-new pixelflex-view)

@@ -1,12 +1,20 @@
 #include "devices/display/event_loop.h"
 
+#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#define GLFW_EXPOSE_NATIVE_X11
+#include <GLFW/glfw3native.h>
 #include <fmt/format.h>
+#include <poll.h>
+#include <sys/eventfd.h>
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "devices/display/display_error.h"
 #include "devices/display/glfw_error.h"
@@ -17,6 +25,31 @@ namespace {
 bool& loopExists() {
   static bool exists = false;
   return exists;
+}
+
+/// The windowing library's own way to end a wait does not know of our descriptors.
+int wakeDescriptor() {
+  static const int descriptor = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  return descriptor;
+}
+
+bool& serverIsGone() {
+  static bool gone = false;
+  return gone;
+}
+
+/// Without this, Xlib would end the process with a message of its own.
+void outliveServer() {
+  serverIsGone() = false;
+  XSetIOErrorHandler([](Display* /*x*/) { return 0; });
+  XSetIOErrorExitHandler(
+      glfwGetX11Display(), [](Display* /*x*/, void* /*nothing*/) { serverIsGone() = true; }, nullptr);
+}
+
+int millisecondsOf(std::optional<std::chrono::duration<double>> timeout) {
+  if (!timeout) return -1;
+  const double milliseconds = std::ceil(timeout->count() * 1e3);
+  return static_cast<int>(std::clamp(milliseconds, 0.0, double(std::numeric_limits<int>::max())));
 }
 
 std::string displayName() {
@@ -40,6 +73,7 @@ EventLoop::EventLoop(const std::optional<std::string>& display) {
     throw DisplayError(fmt::format("cannot open windows on {}: {}; start an X server, set DISPLAY, or use --headless",
                                    displayName(), lastGlfwError()));
   }
+  outliveServer();
   loopExists() = true;
 }
 
@@ -50,25 +84,31 @@ EventLoop::~EventLoop() {
 }
 
 void EventLoop::wait(std::optional<std::chrono::duration<double>> timeout) {
-  if (timeout) {
-    glfwWaitEventsTimeout(std::max(timeout->count(), 1e-6));
-  } else {
-    glfwWaitEvents();
-  }
-  finish();
+  // Drawing may have read events from the socket, for which it will not wake us.
+  if (XPending(glfwGetX11Display()) == 0) sleep(timeout);
+  poll();
+}
+
+void EventLoop::sleep(std::optional<std::chrono::duration<double>> timeout) const {
+  std::vector<pollfd> watched{{ConnectionNumber(glfwGetX11Display()), POLLIN, 0}, {wakeDescriptor(), POLLIN, 0}};
+  for (const auto& [owner, task] : tasks_) watched.push_back({task.descriptor, POLLIN, 0});
+  ::poll(watched.data(), watched.size(), millisecondsOf(timeout));
 }
 
 void EventLoop::poll() {
+  eventfd_t wakes = 0;
+  eventfd_read(wakeDescriptor(), &wakes);
   glfwPollEvents();
   finish();
 }
 
 void EventLoop::wake() {
-  glfwPostEmptyEvent();
+  eventfd_write(wakeDescriptor(), 1);
 }
 
 void EventLoop::finish() {
-  for (const auto& [owner, task] : tasks_) task();
+  for (const auto& [owner, task] : tasks_) task.run();
+  if (serverIsGone()) throw DisplayError("the X server of " + displayName() + " is gone");
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
 }
 

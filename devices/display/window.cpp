@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "devices/display/glfw_error.h"
-#include "devices/display/keysyms.h"
 
 namespace pixelflex::devices {
 
@@ -20,7 +19,6 @@ struct Window::State {
   EventLoop* loop = nullptr;
   GLFWwindow* handle = nullptr;
   std::unique_ptr<Keysyms> keysyms;
-  bool keysWait = false;  // some have been pressed or the keyboard has gone
   int unlockedCursor = GLFW_CURSOR_NORMAL;
   std::optional<glm::dvec2> lockedAt;  // set while the pointer is locked
   WindowHandlers handlers;
@@ -37,6 +35,10 @@ struct Window::State {
     } catch (...) {
       loop->keep(std::current_exception());
     }
+  }
+  /// With `all`, also those that the server has not told of yet: what was pressed before a button comes before it.
+  void handKeys(bool all) noexcept {
+    for (const KeyStroke& stroke : keysyms->take(all)) call(handlers.key, stroke);
   }
 };
 
@@ -114,20 +116,17 @@ void Window::setHandlers(WindowHandlers handlers) {
     state.call(state.handlers.motion, position - std::exchange(*state.lockedAt, position));
   });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int /*mods*/) {
+    State::of(w).handKeys(true);
     State::of(w).call(State::of(w).handlers.button, buttonNumber(button), action != GLFW_RELEASE);
   });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
     State::of(w).call(State::of(w).handlers.scroll, glm::dvec2(x, y));
   });
-  glfwSetKeyCallback(window, [](GLFWwindow* w, int /*key*/, int /*scancode*/, int /*action*/, int /*mods*/) {
-    State::of(w).keysWait = true;
+  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
+    State::of(w).handKeys(true);
+    State::of(w).call(State::of(w).handlers.focus, focused == GLFW_TRUE);
   });
-  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int /*focused*/) { State::of(w).keysWait = true; });
-  state_->loop->addTask(this, [state = state_.get()] {
-    for (const auto& [keysym, pressed] : state->keysyms->take(std::exchange(state->keysWait, false))) {
-      state->call(state->handlers.key, keysym, pressed);
-    }
-  });
+  state_->loop->addTask(this, state_->keysyms->descriptor(), [state = state_.get()] { state->handKeys(false); });
   glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { State::of(w).call(State::of(w).handlers.close); });
   glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { State::of(w).call(State::of(w).handlers.redraw); });
   glfwSetFramebufferSizeCallback(
@@ -174,6 +173,15 @@ void Window::lockPointer(bool locked) {
   glm::dvec2 position;
   glfwGetCursorPos(state_->handle, &position.x, &position.y);
   state_->lockedAt = position;
+}
+
+bool Window::grabKeyboard() {
+  return state_->keysyms->grab();
+}
+
+void Window::releaseKeyboard() {
+  state_->keysyms->letGo();
+  state_->handKeys(false);
 }
 
 void Window::moveTo(glm::ivec2 position) {

@@ -10,6 +10,7 @@
 #include "devices/display/event_loop.h"
 #include "devices/display/gl_context.h"
 #include "devices/display/gl_handle.h"
+#include "devices/display/keysyms.h"
 #include "devices/image/size.h"
 
 namespace pixelflex::devices {
@@ -31,7 +32,8 @@ struct WindowHandlers {
   std::function<void(glm::dvec2 by)> motion;         // in the pointer's stead while it is locked: pixels
   std::function<void(int button, bool pressed)> button;  // X numbers: 1 left, 2 middle, 3 right, 8 back, 9 forward
   std::function<void(glm::dvec2 steps)> scroll;          // wheel notches, up and left positive
-  std::function<void(std::uint32_t keysym, bool pressed)> key;  // X11 keysyms, modifiers too; repeats are presses
+  std::function<void(const KeyStroke& stroke)> key;      // modifiers too; repeats are presses
+  std::function<void(bool focused)> focus;               // the keyboard has come or gone
   std::function<void()> close;
   std::function<void()> redraw;  // shown for the first time, uncovered or resized: present() again
 };
@@ -57,6 +59,10 @@ class Window final : public GlContext {
   [[nodiscard]] glm::ivec2 position() const;
   /// Locked, the pointer is hidden and stays in this window while that has the keyboard; only its motion is told.
   void lockPointer(bool locked);
+  /// All keys come to this window, shortcuts of the window manager too. False when another program has the keyboard to
+  /// itself: worth another try. Keys that are held are let go when it ends.
+  bool grabKeyboard();
+  void releaseKeyboard();
   /// Moves it; a window manager may have its own mind.
   void moveTo(glm::ivec2 position);
   /// present() waits for the monitor's refresh; at most one window of a wall. Leaves this context current.

@@ -1,4 +1,4 @@
-// Working on a wall: typing, drawing, finding the pointer, the control window.
+// Working on a wall: typing, drawing, the control window.
 #include <algorithm>
 #include <fstream>
 
@@ -83,30 +83,6 @@ TEST_F(DeskTest, TextOfAnotherLayoutArrivesLetterForLetter) {
   screen_.query({"xdotool", "key", "Return"});
   ASSERT_TRUE(comesTrue([&] { return fs::exists(typed) && !textOf(typed).empty(); })) << log();
   EXPECT_EQ(textOf(typed), text);
-}
-
-TEST_F(DeskTest, TwoTapsOfCtrlShowWhereThePointerIs) {
-  makeWall(kAsOnTheWall);
-  startViewer();
-  waitForPicture(kAsOnTheWall[0]);
-  const auto amber = [&] {
-    const devices::Image8 picture = grabRoot(screen_.display());
-    int pixels = 0;
-    for (int y = 0; y < picture.height(); ++y) {
-      for (int x = 0; x < picture.width(); ++x) {
-        pixels += picture.at(x, y, 0) == 255 && picture.at(x, y, 1) == 176 && picture.at(x, y, 2) == 0;
-      }
-    }
-    return pixels;
-  };
-  screen_.query({"xdotool", "mousemove", "400", "180"});  // the ring lies over two screens
-  ASSERT_TRUE(comesTrue([&] { return pointer() == glm::ivec2(300, 90); })) << log();
-  EXPECT_EQ(amber(), 0);
-  ASSERT_TRUE(comesTrue([&] {
-    screen_.query({"xdotool", "key", "--delay", "30", "Control_L", "Control_L"});
-    return amber() > 200;
-  }));
-  EXPECT_TRUE(comesTrue([&] { return amber() == 0; }));
 }
 
 TEST_F(DeskTest, TheControlWindowPointsWithoutTheWall) {

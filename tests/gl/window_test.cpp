@@ -10,6 +10,8 @@
 #include <chrono>
 #include <cstdlib>
 #include <functional>
+#include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -152,7 +154,7 @@ TEST_F(WindowTest, PointerButtonsAndWheelArrive) {
 TEST_F(WindowTest, KeysArriveAsKeysyms) {
   Window window(loop_, {.title = "p", .size = {300, 200}, .at = glm::ivec2(100, 50), .borderless = true});
   std::vector<Key> keys;
-  window.setHandlers({.key = [&](std::uint32_t keysym, bool pressed) { keys.emplace_back(keysym, pressed); }});
+  window.setHandlers({.key = [&](const KeyStroke& stroke) { keys.emplace_back(stroke.keysym, stroke.pressed); }});
   loop_.wait(200ms);
   xdotool("key a");
   EXPECT_TRUE(eventually([&] { return keys.size() == 2; }));
@@ -174,8 +176,9 @@ TEST_F(WindowTest, KeysArriveAsKeysyms) {
 TEST_F(WindowTest, TextTypedArrivesWholeAlsoAfterTheLayoutChanged) {
   Window window(loop_, {.title = "p", .size = {300, 200}, .at = glm::ivec2(100, 50), .borderless = true});
   std::string text;
-  window.setHandlers({.key = [&](std::uint32_t keysym, bool pressed) {
-    if (pressed && keysym >= XK_space && keysym <= XK_ydiaeresis) text += static_cast<char>(keysym);
+  window.setHandlers({.key = [&](const KeyStroke& stroke) {
+    const auto keysym = stroke.keysym;
+    if (stroke.pressed && keysym >= XK_space && keysym <= XK_ydiaeresis) text += static_cast<char>(keysym);
   }});
   loop_.wait(200ms);
   xdotool("type --delay 20 'Pixel_Flex {8x}'");
@@ -189,7 +192,7 @@ TEST_F(WindowTest, TextTypedArrivesWholeAlsoAfterTheLayoutChanged) {
 TEST_F(WindowTest, KeysHeldAreReleasedWhenTheKeyboardGoesElsewhere) {
   Window window(loop_, {.title = "p", .size = {200, 100}, .at = glm::ivec2(0, 0), .borderless = true});
   std::vector<Key> keys;
-  window.setHandlers({.key = [&](std::uint32_t keysym, bool pressed) { keys.emplace_back(keysym, pressed); }});
+  window.setHandlers({.key = [&](const KeyStroke& stroke) { keys.emplace_back(stroke.keysym, stroke.pressed); }});
   loop_.wait(200ms);
   xdotool("keydown ctrl");
   EXPECT_TRUE(eventually([&] { return keys.size() == 1; }));
@@ -197,6 +200,50 @@ TEST_F(WindowTest, KeysHeldAreReleasedWhenTheKeyboardGoesElsewhere) {
   EXPECT_TRUE(eventually([&] { return keys.size() == 2; }));
   EXPECT_THAT(keys, ElementsAre(Key(XK_Control_L, true), Key(XK_Control_L, false)));
   xdotool("keyup ctrl");
+}
+
+TEST_F(WindowTest, ShortcutsHaveTheirLetterInEveryLayout) {
+  Window window(loop_, {.title = "p", .size = {200, 100}, .at = glm::ivec2(0, 0), .borderless = true});
+  std::vector<std::pair<std::uint32_t, char>> keys;
+  window.setHandlers({.key = [&](const KeyStroke& stroke) {
+    if (stroke.pressed && stroke.keysym != XK_Control_L) keys.emplace_back(stroke.keysym, stroke.letter);
+  }});
+  const auto strokeIn = [&](const std::string& layout, const std::string& keycode) {
+    EXPECT_EQ(std::system(("setxkbmap " + layout).c_str()), 0);
+    loop_.wait(50ms);
+    keys.clear();
+    xdotool("keydown ctrl key " + keycode + " keyup ctrl");
+    EXPECT_TRUE(eventually([&] { return !keys.empty(); }));
+    return keys.front();
+  };
+  // The keys are Q and A, G, and 1 of a US keyboard.
+  EXPECT_EQ(strokeIn("us", "24"), std::pair(std::uint32_t{XK_q}, 'q'));
+  EXPECT_EQ(strokeIn("fr", "24"), std::pair(std::uint32_t{XK_a}, 'a'));
+  EXPECT_EQ(strokeIn("ru,us", "24"), std::pair(std::uint32_t{XK_Cyrillic_shorti}, 'q'));
+  EXPECT_EQ(strokeIn("ru", "24"), std::pair(std::uint32_t{XK_Cyrillic_shorti}, 'q'));
+  EXPECT_EQ(strokeIn("gr", "42"), std::pair(std::uint32_t{XK_Greek_gamma}, 'g'));
+  EXPECT_EQ(strokeIn("ru", "10"), std::pair(std::uint32_t{XK_1}, '\0'));
+}
+
+TEST_F(WindowTest, AGrabbedKeyboardIsNobodyElsesAndWhatIsHeldIsReleasedAtItsEnd) {
+  Window window(loop_, {.title = "p", .size = {200, 100}, .at = glm::ivec2(0, 0), .borderless = true});
+  Window other(loop_, {.title = "q", .size = {200, 100}, .at = glm::ivec2(300, 0), .borderless = true});
+  std::vector<Key> keys;
+  std::vector<Key> others;
+  window.setHandlers({.key = [&](const KeyStroke& stroke) { keys.emplace_back(stroke.keysym, stroke.pressed); }});
+  other.setHandlers({.key = [&](const KeyStroke& stroke) { others.emplace_back(stroke.keysym, stroke.pressed); }});
+  loop_.wait(200ms);
+  xdotool("key a");
+  EXPECT_TRUE(eventually([&] { return others.size() == 2; })) << "the one shown last has the keyboard";
+  ASSERT_TRUE(window.grabKeyboard());
+  EXPECT_FALSE(other.grabKeyboard());
+  xdotool("key b keydown shift");
+  EXPECT_TRUE(eventually([&] { return keys.size() == 3; }));
+  window.releaseKeyboard();
+  EXPECT_THAT(keys, ElementsAre(Key(XK_b, true), Key(XK_b, false), Key(XK_Shift_L, true), Key(XK_Shift_L, false)));
+  xdotool("keyup shift key c");
+  EXPECT_TRUE(eventually([&] { return others.size() == 4; }));
+  EXPECT_EQ(keys.size(), 4U);
 }
 
 TEST_F(WindowTest, CloseAndRedrawAreTold) {
@@ -258,6 +305,21 @@ TEST_F(WindowTest, MonitorsAreListed) {
   } catch (const DisplayError& error) {
     EXPECT_THAT(error.what(), HasSubstr("'HDMI-9'"));
     EXPECT_THAT(error.what(), HasSubstr(monitors[0].name));
+  }
+}
+
+TEST(EventLoopTest, SaysThatTheServerIsGone) {
+  std::optional<testing::XServer> server(std::in_place, 640, 480);
+  const std::string display = server->display();
+  EventLoop loop(display);
+  const Window window(loop, {.title = "p", .size = {64, 64}, .at = glm::ivec2(0, 0), .borderless = true});
+  loop.wait(100ms);
+  server.reset();
+  try {
+    for (int i = 0; i < 10; ++i) loop.wait(kPatience);
+    FAIL() << "went on";
+  } catch (const DisplayError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(display));
   }
 }
 

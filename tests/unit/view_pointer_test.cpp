@@ -1,8 +1,11 @@
-// What finds the pointer: the gesture and the ring.
+// What asks where the pointer is.
 #include <gtest/gtest.h>
+
+#include <glm/vec2.hpp>
 
 #include "viewer/programs/control_taps.h"
 #include "viewer/programs/modifier_keys.h"
+#include "viewer/programs/pointer_shake.h"
 
 namespace pixelflex::viewer {
 namespace {
@@ -51,6 +54,42 @@ TEST(ControlTaps, AreNotAKeyThatRepeats) {
   const ControlTaps::Clock::time_point start{1h};
   for (int i = 0; i < 8; ++i) EXPECT_FALSE(taps.key(kControlLeft, true, start + i * 30ms));
   EXPECT_FALSE(taps.key(kControlLeft, false, start + 300ms));
+}
+
+/// Moves between two points, some steps each way; how often that was a shake.
+int shakes(PointerShake& shake, glm::dvec2 from, glm::dvec2 to, int strokes, std::chrono::milliseconds each) {
+  constexpr int kSteps = 8;
+  PointerShake::Clock::time_point now{1h};
+  int count = 0;
+  for (int i = 0; i < strokes * kSteps; ++i) {
+    const double along = static_cast<double>(i % kSteps) / kSteps;
+    const double part = i / kSteps % 2 == 0 ? along : 1 - along;
+    count += shake.move(from + (to - from) * part, now) ? 1 : 0;
+    now += each / kSteps;
+  }
+  return count;
+}
+
+TEST(PointerShakeTest, IsToAndFroInAnyDirection) {
+  for (const glm::dvec2 to : {glm::dvec2(400, 100), glm::dvec2(100, 400), glm::dvec2(-100, -100)}) {
+    PointerShake shake;
+    EXPECT_EQ(shakes(shake, {100, 100}, to, 6, 120ms), 1) << to.x << " " << to.y;
+  }
+  PointerShake shake;
+  EXPECT_GT(shakes(shake, {0, 0}, {300, 0}, 24, 120ms), 2) << "and goes on";
+}
+
+TEST(PointerShakeTest, IsNeitherAimingNorWorking) {
+  PointerShake slow;
+  EXPECT_EQ(shakes(slow, {100, 100}, {900, 100}, 20, 400ms), 0);
+  PointerShake small;
+  EXPECT_EQ(shakes(small, {100, 100}, {160, 130}, 40, 60ms), 0);
+  PointerShake few;
+  EXPECT_EQ(shakes(few, {100, 100}, {900, 100}, 4, 100ms), 0);
+  PointerShake clicked;
+  EXPECT_EQ(shakes(clicked, {100, 100}, {400, 100}, 4, 100ms), 0);
+  clicked.forget();
+  EXPECT_EQ(shakes(clicked, {100, 100}, {400, 100}, 4, 100ms), 0);
 }
 
 }  // namespace

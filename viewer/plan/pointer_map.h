@@ -20,10 +20,10 @@ class PointerMap {
   [[nodiscard]] std::optional<glm::ivec2> fromProjector(std::size_t projector, glm::dvec2 pointInProjector) const;
   /// The same for a point of the wall.
   [[nodiscard]] glm::ivec2 fromWall(glm::dvec2 pointInWall) const;
-
- private:
+  /// The nearest pixel of the part of the desktop that is shown.
   [[nodiscard]] glm::ivec2 hold(glm::dvec2 pointInDesktop) const;
 
+ private:
   struct Screen {
     calib::ProjectorMapping mapping;
     std::optional<glm::ivec2> flatAt;

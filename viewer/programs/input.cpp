@@ -27,7 +27,8 @@ void Input::take(devices::Window& window, Map desktopFromWindow, std::function<v
                       .motion = [this](glm::dvec2 by) { moveBy(by); },
                       .button = [this](int number, bool pressed) { button(number, pressed); },
                       .scroll = [this](glm::dvec2 steps) { scroll(steps); },
-                      .key = [this](std::uint32_t keysym, bool pressed) { key(keysym, pressed); },
+                      .key = [this](const devices::KeyStroke& stroke) { key(stroke); },
+                      .focus = [this, pane](bool focused) { focus(pane, focused); },
                       .close = onQuit_,
                       .redraw = std::move(redraw)});
 }
@@ -44,8 +45,37 @@ void Input::setLock(bool locked) {
   }
 }
 
+void Input::grabKeyboard() {
+  setGrab(true);
+}
+
+void Input::setGrab(bool grabs) {
+  grabs_ = grabs;
+  followFocus();
+}
+
+void Input::focus(std::size_t pane, bool focused) {
+  if (focused) {
+    focused_ = pane;
+  } else if (focused_ == pane) {
+    focused_.reset();
+  }
+  followFocus();
+}
+
+/// Where another program has the keyboard for a moment, as window managers have during their own shortcuts, the next
+/// key or button is another attempt.
+void Input::followFocus() {
+  const auto wanted = grabs_ ? focused_ : std::nullopt;
+  if (grabbed_ == wanted) return;
+  if (const auto old = std::exchange(grabbed_, std::nullopt)) panes_[*old].window->releaseKeyboard();
+  if (wanted && panes_[*wanted].window->grabKeyboard()) grabbed_ = wanted;
+}
+
 void Input::move(std::optional<glm::ivec2> pointInDesktop) {
-  if (pointInDesktop) view_.point(*pointInDesktop, buttons_);
+  if (!pointInDesktop) return;
+  if (buttons_ == 0 && shake_.move(glm::dvec2(*pointInDesktop), PointerShake::Clock::now())) view_.findPointer();
+  view_.point(*pointInDesktop, buttons_);
 }
 
 void Input::moveIn(std::size_t pane, glm::dvec2 pointInWindow) {
@@ -67,17 +97,17 @@ std::optional<glm::ivec2> Input::besides(const Pane& pane, glm::dvec2 pointInWin
 }
 
 void Input::moveBy(glm::dvec2 pixels) {
-  const auto [width, height] = view_.desktop();
-  if (width == 0 || height == 0) return;
+  if (view_.pointerMap() == nullptr) return;
   unmoved_ += pixels;
   const glm::dvec2 whole{std::trunc(unmoved_.x), std::trunc(unmoved_.y)};
   unmoved_ -= whole;
-  const glm::ivec2 to = view_.pointer() + glm::ivec2(whole);
-  move(glm::ivec2(std::clamp(to.x, 0, width - 1), std::clamp(to.y, 0, height - 1)));
+  move(view_.pointerMap()->hold(glm::dvec2(view_.pointer()) + whole));
 }
 
 void Input::button(int number, bool pressed) {
+  followFocus();
   taps_.forget();
+  shake_.forget();
   const std::uint16_t bit = bitOf(number);
   buttons_ = static_cast<std::uint16_t>(pressed ? buttons_ | bit : buttons_ & ~bit);
   view_.point(view_.pointer(), buttons_);
@@ -96,26 +126,36 @@ void Input::scroll(glm::dvec2 steps) {
   for (; unscrolled_.x <= -1; unscrolled_.x += 1) click(7);
 }
 
-void Input::key(std::uint32_t keysym, bool pressed) {
+void Input::key(const devices::KeyStroke& stroke) {
+  const auto [keysym, pressed, letter] = stroke;
+  if (pressed) followFocus();
   if (taps_.key(keysym, pressed, ControlTaps::Clock::now())) view_.findPointer();
+  if (command_ == keysym) {
+    if (!pressed) command_.reset();
+    return;
+  }
   if (isControl(keysym) || isAlt(keysym)) {
     pressed ? (void)modifiers_.insert(keysym) : (void)modifiers_.erase(keysym);
-  } else if (pressed && takenAsCommand(keysym)) {
+  } else if (pressed && takenAsCommand(stroke)) {
     return;
   }
   view_.key(keysym, pressed);
 }
 
-/// With Ctrl and Alt: Q leaves, G lets the pointer go.
-bool Input::takenAsCommand(std::uint32_t keysym) {
+/// With Ctrl and Alt: Q leaves, G lets pointer and keyboard go.
+bool Input::takenAsCommand(const devices::KeyStroke& stroke) {
   if (!std::ranges::any_of(modifiers_, isControl) || !std::ranges::any_of(modifiers_, isAlt)) return false;
-  const bool quits = keysym == 'q' || keysym == 'Q';
-  const bool unlocks = lockable_ && (keysym == 'g' || keysym == 'G');
-  if (!quits && !unlocks) return false;
+  if (stroke.letter != 'q' && stroke.letter != 'g') return false;
+  command_ = stroke.keysym;
   // What is held down must not stay so on the desktop.
-  for (const std::uint32_t modifier : std::exchange(modifiers_, {})) view_.key(modifier, false);
-  if (quits) onQuit_();
-  if (unlocks) setLock(!locked_);
+  for (const std::uint32_t modifier : modifiers_) view_.key(modifier, false);
+  if (stroke.letter == 'q') {
+    onQuit_();
+  } else {
+    const bool take = !locked_ && !grabs_;
+    setGrab(take);
+    if (lockable_) setLock(take);
+  }
   return true;
 }
 

@@ -9,6 +9,7 @@
 
 #include "devices/display/window.h"
 #include "viewer/programs/control_taps.h"
+#include "viewer/programs/pointer_shake.h"
 #include "viewer/programs/wall_view.h"
 
 namespace pixelflex::viewer {
@@ -24,9 +25,12 @@ class Input {
   using Map = std::function<std::optional<glm::ivec2>(glm::dvec2 pointInWindow)>;
   void take(devices::Window& window, Map desktopFromWindow, std::function<void()> redraw, bool joins);
 
-  /// Locked, the pointer moves over the desktop as the mouse does, wherever the windows lie; Ctrl+Alt+G lets it go and
-  /// locks it again.
+  /// Locked, the pointer moves over the desktop as the mouse does, wherever the windows lie. Ctrl+Alt+G lets pointer
+  /// and keyboard go, and takes them again.
   void lockPointer();
+  /// From here on all keys go to the desktop while one of the windows has the focus, also the window manager's
+  /// shortcuts. Ctrl+Alt+G does the same.
+  void grabKeyboard();
 
  private:
   struct Pane {
@@ -40,20 +44,28 @@ class Input {
   void moveBy(glm::dvec2 pixels);
   void button(int number, bool pressed);
   void scroll(glm::dvec2 steps);
-  void key(std::uint32_t keysym, bool pressed);
-  [[nodiscard]] bool takenAsCommand(std::uint32_t keysym);
+  void key(const devices::KeyStroke& stroke);
+  void focus(std::size_t pane, bool focused);
+  [[nodiscard]] bool takenAsCommand(const devices::KeyStroke& stroke);
   void setLock(bool locked);
+  void setGrab(bool grabs);
+  void followFocus();
 
   WallView& view_;
   std::function<void()> onQuit_;
   std::vector<Pane> panes_;
   std::uint16_t buttons_ = 0;
   glm::dvec2 unscrolled_{0, 0};
-  glm::dvec2 unmoved_{0, 0};           // less than a pixel
-  std::set<std::uint32_t> modifiers_;  // of Ctrl and Alt, those that are down
+  glm::dvec2 unmoved_{0, 0};              // less than a pixel
+  std::set<std::uint32_t> modifiers_;     // of Ctrl and Alt, those that are down
+  std::optional<std::uint32_t> command_;  // the key of a shortcut for us, until it is up
   ControlTaps taps_;
+  PointerShake shake_;
   bool lockable_ = false;
   bool locked_ = false;
+  bool grabs_ = false;
+  std::optional<std::size_t> focused_;  // pane
+  std::optional<std::size_t> grabbed_;  // pane
 };
 
 }  // namespace pixelflex::viewer

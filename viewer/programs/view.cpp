@@ -67,6 +67,7 @@ int main(int argc, char** argv) {
       "server of this machine, x11:DISPLAY (x11::7).",
       "pixelflex-view"};
   app.set_version_flag("--version", PIXELFLEX_VERSION);
+  app.footer("Ctrl+Alt+Q ends it, on whatever layout of the keyboard.");
   app.add_option("WALL", options.wall, "the wall's folder")->required();
   std::string server;
   app.add_option("SERVER", server, "the VNC server, or the X server of this machine")->required();
@@ -102,9 +103,14 @@ int main(int argc, char** argv) {
   app.add_option(
          "--pointer", options.pointer,
          "desktop: the mouse moves over the desktop wherever the windows are, Ctrl+Alt+G lets it go; screen: over "
-         "the windows as they lie; auto: screen where they lie as on the wall")
+         "the windows as they lie; auto: screen where they lie as on the wall. Ctrl twice, or shaking it, shows where "
+         "it is")
       ->transform(CLI::CheckedTransformer(pixelflex::viewer::kPointerModes))
       ->option_text("auto|desktop|screen");
+  app.add_flag("--grab", options.grab,
+               "all keys go to the desktop, the window manager's shortcuts too; Ctrl+Alt+G lets keyboard and pointer "
+               "go and takes them, also without this")
+      ->excludes("--headless");
   app.add_flag("--control", options.control, "a window with the whole desktop, to point and type without the wall")
       ->excludes("--headless")
       ->excludes("--screenshot");

@@ -42,6 +42,7 @@ struct ViewOptions {
   Resize resize = Resize::kNo;
   bool viewOnly = false;
   PointerMode pointer = PointerMode::kAuto;
+  bool grab = false;                                  // all keys go to the desktop
   bool control = false;                               // a window with the whole desktop beside the wall
   std::size_t clipboardLimit = std::size_t{1} << 20;  // bytes; 0: no clipboard
   std::optional<std::string> passwordFile;

@@ -90,6 +90,7 @@ class WallWindows {
     if (options.control) openControl();
     requireWindows();
     if (locksPointer()) input_.lockPointer();
+    if (options_.grab && !options_.viewOnly) input_.grabKeyboard();
   }
 
   int run(const QuitSignal& signal) {

@@ -1,0 +1,131 @@
+// What keys and pointer mean to the viewer itself: the shortcuts, the grab, finding the pointer.
+#include "tests/e2e/view_screens.h"
+#include "tests/support/x_shortcut.h"
+
+namespace pixelflex::testing {
+namespace {
+
+const std::vector<glm::ivec2> kAsOnTheWall{{100, 90}, {400, 90}, {700, 90}, {1000, 90}};
+
+class GesturesTest : public ScreensTest {
+ protected:
+  void start(std::vector<std::string> more = {}) {
+    makeWall(kAsOnTheWall);
+    startViewer(std::move(more));
+    waitForPicture(kAsOnTheWall[0]);
+  }
+  void key(const std::string& keys) { screen_.query({"xdotool", "key", "--delay", "30", keys}); }
+  void moveTo(int x, int y) { screen_.query({"xdotool", "mousemove", std::to_string(x), std::to_string(y)}); }
+  /// The colour of the ring around the pointer.
+  [[nodiscard]] int amber() const {
+    const devices::Image8 picture = grabRoot(screen_.display());
+    int pixels = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        pixels += picture.at(x, y, 0) == 255 && picture.at(x, y, 1) == 176 && picture.at(x, y, 2) == 0;
+      }
+    }
+    return pixels;
+  }
+  /// What the keys do on the desktop is in the log of this.
+  void watchDesktopKeys() {
+    keys_ = std::make_unique<Process>(
+        std::vector<std::string>{"stdbuf", "-oL", "xev", "-geometry", "1200x200+0+0", "-event", "keyboard"},
+        ProcessOptions{.environment = {"DISPLAY=" + desktop_->x().display()}, .log = folder_ / "keys"});
+    desktop_->x().query({"xdotool", "search", "--sync", "--onlyvisible", "--name", "Event Tester"});
+  }
+  [[nodiscard]] std::size_t desktopHas(const std::string& words) const {
+    const std::string text = textOf(folder_ / "keys");
+    std::size_t count = 0;
+    for (auto at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++count;
+    return count;
+  }
+  /// Works as soon as the viewer's window has the keyboard.
+  void waitForKeys() {
+    moveTo(250, 150);
+    ASSERT_TRUE(comesTrue([&] {
+      key("x");
+      return desktopHas("keysym 0x78, x") > 0;
+    })) << log();
+  }
+  std::unique_ptr<Process> keys_;
+};
+
+TEST_F(GesturesTest, TwoTapsOfCtrlShowWhereThePointerIs) {
+  start();
+  moveTo(400, 180);  // the ring lies over two screens
+  ASSERT_TRUE(comesTrue([&] { return pointer() == glm::ivec2(300, 90); })) << log();
+  EXPECT_EQ(amber(), 0);
+  ASSERT_TRUE(comesTrue([&] {
+    screen_.query({"xdotool", "key", "--delay", "30", "Control_L", "Control_L"});
+    return amber() > 200;
+  }));
+  EXPECT_TRUE(comesTrue([&] { return amber() == 0; }));
+}
+
+TEST_F(GesturesTest, ShakingShowsWhereThePointerIs) {
+  start();
+  moveTo(400, 180);
+  ASSERT_TRUE(comesTrue([&] { return pointer() == glm::ivec2(300, 90); })) << log();
+  EXPECT_EQ(amber(), 0);
+  ASSERT_TRUE(comesTrue([&] {
+    std::vector<std::string> shake{"xdotool"};
+    for (int i = 0; i < 8; ++i) {
+      shake.insert(shake.end(), {"mousemove", i % 2 == 0 ? "600" : "400", "180", "sleep", "0.05"});
+    }
+    screen_.query(shake);
+    return amber() > 200;
+  }));
+  EXPECT_TRUE(comesTrue([&] { return amber() == 0; }));
+}
+
+TEST_F(GesturesTest, ThePointerStaysInTheRegionThatIsShown) {
+  start({"--pointer", "desktop", "--region", "300,40,600x100"});
+  const auto moveBy = [&](int x, int y) {
+    screen_.query({"xdotool", "mousemove_relative", "--", std::to_string(x), std::to_string(y)});
+  };
+  ASSERT_TRUE(comesTrue([&] { return moveBy(-40, -40), pointer() == glm::ivec2(300, 40); })) << log();
+  ASSERT_TRUE(comesTrue([&] { return moveBy(40, 40), pointer() == glm::ivec2(899, 139); })) << log();
+}
+
+TEST_F(GesturesTest, TheEscapeKeysWorkOnALayoutWithoutLatinLetters) {
+  screen_.query({"setxkbmap", "ru"});
+  start();
+  moveTo(250, 150);
+  ASSERT_TRUE(comesTrue([&] {
+    key("ctrl+alt+24");  // the keycode of Q
+    return !viewer_->running();
+  })) << log();
+  EXPECT_EQ(viewer_->wait(std::chrono::seconds(1)), 0);
+}
+
+TEST_F(GesturesTest, TheGrabTakesTheKeysOfOthersUntilItIsLetGo) {
+  XShortcut shortcut(screen_.display());
+  start({"--grab"});
+  watchDesktopKeys();
+  waitForKeys();
+  ASSERT_TRUE(comesTrue([&] {
+    key("F9");
+    return desktopHas("keysym 0xffc6, F9") > 0;
+  })) << log();
+  EXPECT_FALSE(shortcut.used());
+  key("ctrl+alt+g");
+  ASSERT_TRUE(comesTrue([&] { return key("F9"), shortcut.used(); }));
+  key("ctrl+alt+g");
+  const std::size_t before = desktopHas("keysym 0xffc6, F9");
+  EXPECT_TRUE(comesTrue([&] { return key("F9"), desktopHas("keysym 0xffc6, F9") > before; }));
+  EXPECT_EQ(desktopHas("keysym 0x67, g"), 0U) << "the shortcut is not the desktop's";
+}
+
+TEST_F(GesturesTest, WithoutTheGrabTheKeysOfOthersAreTheirs) {
+  XShortcut shortcut(screen_.display());
+  start();
+  watchDesktopKeys();
+  waitForKeys();
+  ASSERT_TRUE(comesTrue([&] { return key("F9"), shortcut.used(); }));
+  waitForKeys();
+  EXPECT_EQ(desktopHas("keysym 0xffc6, F9"), 0U);
+}
+
+}  // namespace
+}  // namespace pixelflex::testing
