@@ -2,8 +2,11 @@
 #include <X11/Xutil.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <random>
 #include <stdexcept>
+#include <vector>
 
 #include "tests/support/x_servers.h"
 
@@ -34,6 +37,24 @@ void copyBand(XImage& band, int top, devices::Image8& picture) {
 }
 
 }  // namespace
+
+void paintNoise(const std::string& display, unsigned seed) {
+  const std::unique_ptr<Display, CloseDisplay> connection(XOpenDisplay(display.c_str()));
+  if (connection == nullptr) throw std::runtime_error("cannot open the display " + display);
+  Display* x = connection.get();
+  const int screen = XDefaultScreen(x);
+  const auto width = static_cast<unsigned>(XDisplayWidth(x, screen));
+  const auto height = static_cast<unsigned>(XDisplayHeight(x, screen));
+  std::mt19937 random(seed);
+  std::vector<std::uint32_t> pixels(std::size_t{width} * height);
+  std::ranges::generate(pixels, random);
+  const std::unique_ptr<XImage, decltype(&XFree)> image(
+      XCreateImage(x, XDefaultVisual(x, screen), 24, ZPixmap, 0, reinterpret_cast<char*>(pixels.data()), width, height,
+                   32, 0),
+      &XFree);
+  XPutImage(x, XDefaultRootWindow(x), XDefaultGC(x, screen), image.get(), 0, 0, 0, 0, width, height);
+  XSync(x, False);
+}
 
 devices::Image8 grabRoot(const std::string& display) {
   const std::unique_ptr<Display, CloseDisplay> connection(XOpenDisplay(display.c_str()));

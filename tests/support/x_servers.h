@@ -82,6 +82,9 @@ class X11vncServer {
 /// listen must be ready to try again.
 [[nodiscard]] int freePort();
 
+/// Fills the root window with noise, which no codec makes small.
+void paintNoise(const std::string& display, unsigned seed);
+
 /// The whole screen as the X server itself holds it, without the pointer: red, green, blue.
 [[nodiscard]] devices::Image8 grabRoot(const std::string& display);
 

@@ -109,6 +109,7 @@ std::vector<std::int32_t> encodingsAskedFor(bool lossless) {
     const FakeVncServer server([&message](FakeConnection& client) { message = client.shakeHands({8, 8}); });
     SessionOptions options = optionsFor(server);
     options.lossless = lossless;
+    options.link = viewer::Link::kLan;
     DesktopMirror mirror(options);
     EXPECT_TRUE(mirror.pumpUntil([&] { return mirror.last<Closed>().has_value(); }));
   }

@@ -31,6 +31,9 @@ const std::map<std::string, WhenLost> kWhenLost{
 
 const std::map<std::string, Fit> kFits{{"letterbox", Fit::kLetterbox}, {"stretch", Fit::kStretch}};
 
+const std::map<std::string, Link> kLinks{
+    {"auto", Link::kAuto}, {"local", Link::kLocal}, {"lan", Link::kLan}, {"wifi", Link::kWifi}, {"wan", Link::kWan}};
+
 const std::map<std::string, Source> kSources{{"vnc", Source::kVnc}, {"auto", Source::kAuto}};
 
 int view(const ViewOptions& options) {
@@ -129,6 +132,13 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--tls-ca", options.security.caFile, "PEM file with the only authorities to trust");
   app.add_option("--tls-fingerprint", options.security.fingerprint, "SHA-256 of the only certificate to trust");
+  app.add_option(
+         "--link", options.link,
+         "what to spend on the way to the server: local (every pixel as it is), lan, wifi or wan (JPEG, ever more "
+         "compressed); auto: local within this machine, else as measured")
+      ->transform(CLI::CheckedTransformer(pixelflex::viewer::kLinks))
+      ->option_text("auto|local|lan|wifi|wan");
+  app.add_flag("--lossless", options.lossless, "no JPEG over any link: every pixel arrives as it is");
   app.add_option("--depth", options.depth,
                  "bits for each colour that the projectors are sent, 8 or 10; with 10 their screenshots are 16-bit PNG")
       ->check(CLI::IsMember({8, 10}))

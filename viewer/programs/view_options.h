@@ -49,6 +49,8 @@ struct ViewOptions {
   std::optional<std::string> password;  // out of that file, the environment or a prompt
   std::string user;
   SecurityOptions security;
+  Link link = Link::kAuto;
+  bool lossless = false;
   std::optional<Retry> retry;  // empty: kNever for a screenshot, else kLost
   WhenLost whenLost = WhenLost::kDim;
   bool stats = false;

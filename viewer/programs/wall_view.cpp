@@ -31,6 +31,8 @@ SessionOptions sessionOptions(const ViewOptions& options) {
           .viewOnly = options.viewOnly,
           .mayResize = options.resize != Resize::kNo,
           .clipboardLimit = options.clipboardLimit,
+          .lossless = options.lossless,
+          .link = options.link,
           .retry = retryOf(options)};
 }
 
@@ -134,6 +136,8 @@ void WallView::handle(const SessionEvent& event) {
     picture_.setCursor(std::move(image), {shape->hotX, shape->hotY});
   } else if (const auto* refused = std::get_if<ResizeRefused>(&event)) {
     fmt::print(stderr, "pixelflex-view: {}; it is shown scaled\n", refused->message);
+  } else if (const auto* link = std::get_if<LinkChanged>(&event)) {
+    fmt::print(stderr, "pixelflex-view: {}\n", link->message);
   } else if (const auto* moved = std::get_if<CursorMoved>(&event)) {
     pointer_ = {moved->x, moved->y};
     picture_.moveCursor(pointer_);

@@ -43,9 +43,8 @@ void adopt(RfbState& rfb, Handshake handshake) {
 }
 
 void sendEncodings(const RfbState& rfb) {
-  rfb.write(setEncodingsMessage({.lossless = rfb.options.lossless,
-                                 .mayResize = rfb.options.mayResize,
-                                 .clipboard = rfb.options.clipboardLimit > 0}));
+  rfb.write(setEncodingsMessage(
+      {.link = rfb.link, .mayResize = rfb.options.mayResize, .clipboard = rfb.options.clipboardLimit > 0}));
 }
 
 void requestFirstPicture(RfbState& rfb) {
@@ -59,6 +58,12 @@ void useContinuousUpdates(RfbState& rfb) {
   if (!rfb.continuousUpdates) rfb.enableContinuousUpdates();
 }
 
+void noteAnswer(RfbState& rfb) {
+  if (!rfb.pinged) return;
+  const auto time = std::chrono::steady_clock::now() - *std::exchange(rfb.pinged, std::nullopt);
+  rfb.roundTrip = std::min(rfb.roundTrip.value_or(time), std::chrono::nanoseconds(time));
+}
+
 // The server measures how far behind this side is. Whatever came before was decoded by now.
 void answerFence(RfbState& rfb) {
   std::array<std::uint8_t, 8> head{};  // padding, flags, length
@@ -67,7 +72,9 @@ void answerFence(RfbState& rfb) {
   std::vector<std::uint8_t> payload(head.back());
   if (payload.size() > kMaxFenceBytes) rfb.refuse("sent a fence that is too long");
   rfb.read(payload);
-  if ((flags & kFenceRequest) != 0) rfb.write(fenceMessage(flags & kFenceBlocks, payload));
+  rfb.hasFences = true;
+  if ((flags & kFenceRequest) == 0) return noteAnswer(rfb);
+  rfb.write(fenceMessage(flags & kFenceBlocks, payload));
 }
 
 // Colour maps mean nothing to a true-colour rfb.client, but their bytes must go.
@@ -79,7 +86,10 @@ void skipColourMap(RfbState& rfb) {
 
 }  // namespace
 
-RfbClient::RfbClient(int socket, const SessionOptions& options) : state_(std::make_unique<RfbState>(socket, options)) {}
+RfbClient::RfbClient(int socket, const SessionOptions& options, const LinkSettings& link)
+    : state_(std::make_unique<RfbState>(socket, options)) {
+  state_->link = link;
+}
 
 RfbClient::~RfbClient() = default;
 
@@ -158,6 +168,22 @@ void RfbClient::send(const Input& input) {
     state_->wantedLayout = layout->layout;
     requestWantedLayout(*state_);
   }
+}
+
+void RfbClient::setLink(const LinkSettings& link) {
+  state_->link = link;
+  sendEncodings(*state_);
+}
+
+bool RfbClient::ping() {
+  if (!state_->hasFences || state_->pinged) return false;
+  state_->pinged = std::chrono::steady_clock::now();
+  state_->write(fenceMessage(kFenceRequest, {}));
+  return true;
+}
+
+std::optional<std::chrono::nanoseconds> RfbClient::roundTrip() const {
+  return state_->roundTrip;
 }
 
 void RfbClient::askForSignOfLife() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,7 +22,7 @@ struct RfbState;
 class RfbClient {
  public:
   /// `socket` stays the caller's and must outlive the client.
-  RfbClient(int socket, const SessionOptions& options);
+  RfbClient(int socket, const SessionOptions& options, const LinkSettings& link = {});
   ~RfbClient();
   RfbClient(const RfbClient&) = delete;
   RfbClient& operator=(const RfbClient&) = delete;
@@ -43,6 +44,12 @@ class RfbClient {
   [[nodiscard]] FrameView frame() const;
 
   void send(const Input& input);
+  /// Asks for other compression.
+  void setLink(const LinkSettings& link);
+  /// Asks for an answer that tells how far the server is. False when it gives none, or one is still on its way.
+  bool ping();
+  /// The quickest answer so far.
+  [[nodiscard]] std::optional<std::chrono::nanoseconds> roundTrip() const;
   /// Asks for the desktop's first pixel. An answer with the colour that it had is no damage.
   void askForSignOfLife();
   /// Throws what to say of a server that does not answer.

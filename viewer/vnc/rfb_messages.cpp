@@ -7,8 +7,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the pixel format below is asked for as little-endian");
 
-constexpr std::int32_t kQuality8 = -24;
-constexpr std::int32_t kCompressLevel1 = -255;
+constexpr std::int32_t kQuality0 = -32;
+constexpr std::int32_t kCompressLevel0 = -256;
 
 }  // namespace
 
@@ -41,14 +41,13 @@ std::vector<std::uint8_t> setPixelFormatMessage() {
 }
 
 std::vector<std::uint8_t> setEncodingsMessage(const EncodingWishes& wishes) {
-  // No raw:
-  // every server falls back to it anyway, but libvncserver sends it in whole rows that overrun its buffer beyond 8192
-  // pixels. Nothing else that libvncclient decodes: each decoder is one more door for a hostile server.
-  // Compression level 1 also switches off TigerVNC's search for pixels that did not change.
+  // Raw comes last: libvncserver sends it in whole rows that overrun its buffer beyond 8192 pixels. Nothing else that
+  // libvncclient decodes: each decoder is one more door for a hostile server.
   std::vector<std::int32_t> encodings{kTightEncoding,
                                       kCopyRectEncoding,
                                       kZrleEncoding,
-                                      kCompressLevel1,
+                                      kRawEncoding,
+                                      kCompressLevel0 + wishes.link.compression,
                                       kLastRectEncoding,
                                       kDesktopSizeEncoding,
                                       kCursorWithAlphaEncoding,
@@ -61,7 +60,7 @@ std::vector<std::uint8_t> setEncodingsMessage(const EncodingWishes& wishes) {
                                       kExtendedMouseButtonsEncoding};
   if (wishes.mayResize) encodings.push_back(kExtendedDesktopSizeEncoding);
   if (wishes.clipboard) encodings.push_back(kExtendedClipboardEncoding);
-  if (!wishes.lossless) encodings.push_back(kQuality8);
+  if (wishes.link.quality) encodings.push_back(kQuality0 + *wishes.link.quality);
   std::vector<std::uint8_t> message{2, 0};  // type, padding
   appendNumber(message, static_cast<std::uint32_t>(encodings.size()), 2);
   for (const std::int32_t encoding : encodings) appendNumber(message, static_cast<std::uint32_t>(encoding), 4);

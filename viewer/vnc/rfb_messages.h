@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "devices/image/size.h"
+#include "viewer/vnc/link.h"
 
 namespace pixelflex::viewer {
 
@@ -32,7 +33,7 @@ inline constexpr std::int32_t kVmwareCursorPositionEncoding = 0x574d5666;
 [[nodiscard]] std::vector<std::uint8_t> setPixelFormatMessage();
 
 struct EncodingWishes {
-  bool lossless = true;    // keeps the server from JPEG
+  LinkSettings link;
   bool mayResize = false;  // it tells of its screens, without which it takes no wishes for them
   bool clipboard = false;  // the extended one
 };

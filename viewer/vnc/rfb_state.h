@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
@@ -78,11 +79,15 @@ struct RfbState {
   bool pointerUsed = false;   // this session has put it somewhere
   bool pointerDrawn = false;  // by the server, into the desktop
   bool continuousUpdates = false;
-  std::optional<std::vector<RfbScreen>> screens;  // once the server has told of them
-  std::optional<ScreenLayout> wantedLayout;       // not asked for yet
-  bool extendedButtons = false;                   // it takes buttons beyond the seventh
-  std::optional<ClipboardCaps> clipboardCaps;     // of a server with the Extended Clipboard
-  std::optional<std::string> offeredText;         // the last text copied here, UTF-8
+  LinkSettings link;
+  bool hasFences = false;
+  std::optional<std::chrono::steady_clock::time_point> pinged;  // and not answered yet
+  std::optional<std::chrono::nanoseconds> roundTrip;            // the shortest
+  std::optional<std::vector<RfbScreen>> screens;                // once the server has told of them
+  std::optional<ScreenLayout> wantedLayout;                     // not asked for yet
+  bool extendedButtons = false;                                 // it takes buttons beyond the seventh
+  std::optional<ClipboardCaps> clipboardCaps;                   // of a server with the Extended Clipboard
+  std::optional<std::string> offeredText;                       // the last text copied here, UTF-8
   std::vector<SessionEvent> events;
 
  private:

@@ -12,6 +12,7 @@
 
 #include "viewer/tiles/thread_time.h"
 #include "viewer/vnc/connector.h"
+#include "viewer/vnc/link_watch.h"
 #include "viewer/vnc/liveness.h"
 #include "viewer/vnc/reconnection.h"
 #include "viewer/vnc/rfb_client.h"
@@ -79,7 +80,8 @@ class Session::Worker {
         connection_.lost() ? std::min(kReconnectTimeout, options_.connectTimeout) : options_.connectTimeout;
     const int socket = desk_.adopt(
         connectToServer(options_.server, {.lookUp = options_.connectTimeout, .connect = patience}, desk_.stopped()));
-    RfbClient client(socket, options_);
+    LinkWatch link(socket, options_);
+    RfbClient client(socket, options_, link.settings());
     client.handshake(Clock::now() + options_.connectTimeout, desk_.stopped());
     unsent_.clear();
     requireNoLess(client.security().level);
@@ -88,7 +90,7 @@ class Session::Worker {
     while (true) {
       sendInput(client, socket);
       if (!client.hasBufferedBytes() && !waitForServer(client, socket, liveness)) continue;
-      if (receive(client, stop)) liveness = Liveness(options_.patience, Clock::now());
+      if (receive(client, link, stop)) liveness = Liveness(options_.patience, Clock::now());
       liveness.heard(Clock::now());
     }
   }
@@ -129,16 +131,20 @@ class Session::Worker {
   }
 
   // True when a whole update came.
-  bool receive(RfbClient& client, const std::stop_token& stop) {
+  bool receive(RfbClient& client, LinkWatch& link, const std::stop_token& stop) {
     const auto received = Clock::now();
     const auto before = threadTime();
+    link.before();
     client.handleMessage();
+    const auto decoding = threadTime() - before;
+    if (auto words = link.after(client, Clock::now() - received - decoding))
+      desk_.post({LinkChanged{*std::move(words)}});
     if (options_.claimPointer && !options_.viewOnly) client.claimPointer();
     desk_.post(client.takeEvents());
     std::optional<Region> damage = client.takeFinishedUpdate();
     if (!damage) return false;
     if (damage->empty()) return true;
-    const Update update{++updates_, received, *std::move(damage), threadTime() - before};
+    const Update update{++updates_, received, *std::move(damage), decoding};
     if (!publishUpdate(client.frame(), update, belt_, stop)) throw SessionStopped{};
     return true;
   }

@@ -10,6 +10,7 @@
 
 #include "viewer/tiles/frame_belt.h"
 #include "viewer/vnc/desktop_source.h"
+#include "viewer/vnc/link.h"
 #include "viewer/vnc/server_address.h"
 
 namespace pixelflex::viewer {
@@ -39,8 +40,11 @@ struct SessionOptions {
   std::size_t clipboardLimit = std::size_t{1} << 20;
   /// Keeps other viewers connected.
   bool shared = true;
-  /// False: the server may send JPEG, which saves bandwidth and alters pixels.
+  /// False: over a link that is not local the server may send JPEG, which saves bandwidth and alters pixels.
   bool lossless = true;
+  Link link = Link::kAuto;
+  /// With kAuto, a connection within this machine is local. False: it may be the end of a tunnel, and is measured.
+  bool loopbackIsLocal = true;
   /// TigerVNC's server draws the pointer into the desktop for every viewer but the one that put it where it is. Set,
   /// the session puts it into the middle of the desktop when it connects to such a server, where it is on a fresh
   /// desktop anyway, and the picture is clean. Not when only viewing.

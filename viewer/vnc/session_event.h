@@ -43,6 +43,12 @@ struct CursorMoved {
   bool operator==(const CursorMoved&) const = default;
 };
 
+/// What the connection carries has changed how the server is asked to compress.
+struct LinkChanged {
+  std::string message;  // for people
+  bool operator==(const LinkChanged&) const = default;
+};
+
 struct Bell {
   bool operator==(const Bell&) const = default;
 };
@@ -80,7 +86,7 @@ struct Closed {
   bool operator==(const Closed&) const = default;
 };
 
-using SessionEvent =
-    std::variant<Connected, Resized, ResizeRefused, CursorShape, CursorMoved, Bell, Clipboard, Lost, Closed>;
+using SessionEvent = std::variant<Connected, Resized, ResizeRefused, CursorShape, CursorMoved, LinkChanged, Bell,
+                                  Clipboard, Lost, Closed>;
 
 }  // namespace pixelflex::viewer
