@@ -11,3 +11,7 @@ pixelflex_test(transport_test LABEL unit
 pixelflex_test(pan_tilt_test LABEL unit
   SOURCES unit/pan_tilt_reply_test.cpp unit/pan_tilt_simulator_test.cpp unit/pan_tilt_unit_test.cpp
   LINK pixelflex_device_host pixelflex_pan_tilt)
+
+pixelflex_test(projector_control_test LABEL unit
+  SOURCES unit/projector_drivers_test.cpp unit/projector_faults_test.cpp unit/projector_vectors_test.cpp support_devices/projector_bench.h
+  LINK pixelflex_device_host pixelflex_projector_control)

@@ -6,12 +6,17 @@
 
 namespace pixelflex::devices {
 
-SettingInfo Device::find(std::string_view setting) {
+std::optional<SettingInfo> Device::doFind(std::string_view setting) {
   const auto all = doSettings();
   const auto found = std::ranges::find(all, setting, &SettingInfo::name);
-  if (found != all.end()) return *found;
+  if (found == all.end()) return std::nullopt;
+  return *found;
+}
+
+SettingInfo Device::find(std::string_view setting) {
+  if (auto found = doFind(setting)) return *found;
   std::string list;
-  for (const auto& info : all) list += (list.empty() ? "" : ", ") + info.name;
+  for (const auto& info : doSettings()) list += (list.empty() ? "" : ", ") + info.name;
   throw DeviceError(name_ + " has no setting \"" + std::string(setting) + "\", only " + list);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,6 +44,8 @@ class Device {
  protected:
   virtual std::string doIdentity() = 0;
   virtual std::vector<SettingInfo> doSettings() = 0;
+  /// One of doSettings(), for devices that take long to tell them all.
+  virtual std::optional<SettingInfo> doFind(std::string_view setting);
   virtual SettingValue doRead(const SettingInfo& setting) = 0;
   virtual void doWrite(const SettingInfo& setting, const SettingValue& value, const Progress& progress) = 0;
   virtual void doNudge(const SettingInfo& setting, double by, const Progress& progress);

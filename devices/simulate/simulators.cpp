@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "devices/simulate/pan_tilt_simulator.h"
+#include "devices/simulate/projector_simulator.h"
 
 namespace pixelflex::devices {
 namespace {
@@ -36,7 +37,38 @@ std::unique_ptr<SimulatedDevice> makePanTilt(Options& options) {
                                                                       .firstTilt = takeNumber(options, "tilt", 0)});
 }
 
-constexpr std::array kKinds = {Kind{"ptu", makePanTilt}};
+/// What all projectors can be asked to be.
+void setUp(ProjectorSimulator& projector, Options& options) {
+  ProjectorState& state = projector.state();
+  state.hours = takeNumber(options, "hours", state.hours);
+  state.warmUp = std::chrono::milliseconds(takeNumber(options, "warm-up-ms", static_cast<int>(state.warmUp.count())));
+  state.coolDown =
+      std::chrono::milliseconds(takeNumber(options, "cool-down-ms", static_cast<int>(state.coolDown.count())));
+}
+
+template <std::unique_ptr<ProjectorSimulator> (*kMake)()>
+std::unique_ptr<SimulatedDevice> makeProjector(Options& options) {
+  auto projector = kMake();
+  setUp(*projector, options);
+  return projector;
+}
+
+std::unique_ptr<SimulatedDevice> makePjlink(Options& options) {
+  PjlinkSimulatorOptions how{.pjlinkClass = takeNumber(options, "class", 2),
+                             .sha256 = takeNumber(options, "sha256", 1) != 0};
+  if (const auto node = options.extract("password"); !node.empty()) how.password = node.mapped();
+  auto projector = makePjlinkSimulator(how);
+  setUp(*projector, options);
+  return projector;
+}
+
+constexpr std::array kKinds = {Kind{"ptu", makePanTilt},
+                               Kind{"hitachi-legacy", makeProjector<makeHitachiLegacySimulator>},
+                               Kind{"proxima-dp6850", makeProjector<makeHitachiLegacySimulator>},
+                               Kind{"hitachi-beef", makeProjector<makeHitachiBeefSimulator>},
+                               Kind{"pjlink", makePjlink},
+                               Kind{"escvp21", makeProjector<makeEscVp21Simulator>},
+                               Kind{"infocus", makeProjector<makeInfocusSimulator>}};
 
 Options optionsOf(std::string_view text) {
   Options options;

@@ -37,7 +37,8 @@ struct LineOptions {
   std::string resync;                    // sent after a reply that did not come whole, to end a half-typed command
   std::chrono::milliseconds quiet{100};  // silence after which the line counts as empty again
   std::chrono::milliseconds connectTimeout{3000};
-  std::chrono::milliseconds gap{0};  // least time from a reply to the next request
+  std::chrono::milliseconds idleClose{0};  // closed when nothing was asked for so long; 0: never
+  std::chrono::milliseconds gap{0};        // least time from a reply to the next request
 };
 
 /// A line to one device: requests wait in a queue, one is under way, each has a deadline; the connection is made when

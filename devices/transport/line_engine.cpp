@@ -161,6 +161,8 @@ void Line::Engine::finish(Answer answer) {
   }
   done(std::move(answer));
   pump();
+  const bool rests = state_ == State::kReady && queue_.empty() && options_.idleClose.count() > 0;
+  if (rests) timer_->set(options_.idleClose, [this] { disconnect(); });
 }
 
 void Line::Engine::deadlinePassed() {

@@ -1,0 +1,153 @@
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "devices/simulate/projector_simulator.h"
+
+namespace pixelflex::devices {
+namespace {
+
+using Byte = unsigned char;
+
+constexpr std::size_t kFrame = 13;
+constexpr std::string_view kHead = "\xBE\xEF";
+constexpr int kMost = 255;
+enum Operation { kSet = 1, kGet = 2, kIncrement = 4, kDecrement = 5, kExecute = 6 };
+
+/// CRC-16/MODBUS by the definition, bit by bit.
+unsigned checkSum(const std::string& frame) {
+  unsigned remainder = 0xFFFF;
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    remainder ^= i == 5 || i == 6 ? 0U : static_cast<Byte>(frame[i]);
+    for (int bit = 0; bit < 8; ++bit) remainder = (remainder & 1U) != 0 ? remainder >> 1U ^ 0xA001U : remainder >> 1U;
+  }
+  return remainder;
+}
+
+class HitachiBeefSimulator : public ProjectorSimulator {
+ public:
+  HitachiBeefSimulator() { state().input = 3; }
+
+  void receive(std::string_view bytes, Time now) override {
+    advance(now);
+    typed_ += bytes;
+    while (!typed_.empty()) {
+      const auto head = typed_.find(kHead);
+      if (head == std::string::npos) {
+        typed_.erase(0, typed_.back() == kHead[0] ? typed_.size() - 1 : typed_.size());
+        return;
+      }
+      typed_.erase(0, head);
+      if (typed_.size() < kFrame) return;
+      const std::string frame = typed_.substr(0, kFrame);
+      typed_.erase(0, kFrame);
+      obey(frame, now);
+    }
+  }
+
+ private:
+  static int word(const std::string& frame, std::size_t at) {
+    return static_cast<Byte>(frame[at]) | static_cast<Byte>(frame[at + 1]) << 8U;
+  }
+
+  void obey(const std::string& frame, Time now) {
+    const unsigned sum = checkSum(frame);
+    const bool sound = static_cast<Byte>(frame[5]) == sum >> 8U && static_cast<Byte>(frame[6]) == (sum & 255U);
+    if (!sound || suffers(Fault::kGarble)) return say("\x15", now);
+    if (suffers(Fault::kBusy)) return say(std::string("\x1F\x01\x00", 3), now);
+    const int operation = word(frame, 7);
+    const int type = word(frame, 9);
+    if (type == 0x6000) return power(operation, word(frame, 11), now);
+    // Nothing is heard while the lamp changes; in standby only the power.
+    if (state().isChanging()) return;
+    if (!state().isOn() && type != 0x6020) return refuse(now);
+    if (operation == kGet) return get(type, now);
+    change(operation, type, word(frame, 11), now);
+  }
+
+  void refuse(Time now) { say(std::string("\x1C\x00\x00", 3), now); }
+  void confirm(Time now) { say("\x06", now); }
+  void answer(int value, Time now) {
+    say(std::string{'\x1D', static_cast<char>(value & 255), static_cast<char>(value >> 8U)}, now);
+  }
+
+  void power(int operation, int value, Time now) {
+    if (operation == kGet) {
+      const bool cools = state().power == ProjectorState::Power::kCooling;
+      return answer(cools ? 2 : state().power == ProjectorState::Power::kOff ? 0 : 1, now);
+    }
+    state().setPower(value == 1, now);
+    confirm(now);
+  }
+
+  int* numberOf(int type) {
+    ProjectorState& its = state();
+    switch (type) {
+      case 0x2000:
+        return &its.input;
+      case 0x2003:
+        return &its.brightness;
+      case 0x2004:
+        return &its.contrast;
+      case 0x2407:
+        return &memory_;
+      case 0x30B1:
+      case 0x30B2:
+      case 0x30B3:
+        return &its.gain.at(static_cast<std::size_t>(type - 0x30B1));
+      case 0x1090:
+        return &its.hours;
+      default:
+        return nullptr;
+    }
+  }
+
+  ProjectorState::Motor* motorOf(int type) {
+    ProjectorState::Lens& lens = state().lens;
+    const std::array<ProjectorState::Motor*, 4> motors = {&lens.focus, &lens.zoom, &lens.shiftV, &lens.shiftH};
+    return type >= 0x2400 && type <= 0x2403 ? motors.at(static_cast<std::size_t>(type - 0x2400)) : nullptr;
+  }
+
+  void get(int type, Time now) {
+    if (type == 0x2405) return answer(state().mute ? 1 : 0, now);
+    if (type == 0x6020 || type == 0x109E) return answer(0, now);
+    if (type == 0x10A0) return answer(88, now);
+    const int* number = numberOf(type);
+    if (number == nullptr) return refuse(now);
+    answer(*number, now);
+  }
+
+  void change(int operation, int type, int value, Time now) {
+    int* number = numberOf(type);
+    auto* motor = motorOf(type);
+    const int step = operation == kIncrement ? 1 : operation == kDecrement ? -1 : 0;
+    if (step != 0 && motor != nullptr) {
+      if (!suffers(Fault::kStuck)) motor->turn(step);
+    } else if (step != 0 && number != nullptr && type != 0x2000) {
+      // At its end it stays there and says so.
+      if (*number + step < 0 || *number + step > kMost) return refuse(now);
+      if (!suffers(Fault::kStuck)) *number += step;
+    } else if (operation == kSet && type == 0x2405) {
+      state().mute = value == 1;
+    } else if (operation == kSet && (type == 0x2000 || (type == 0x2407 && value < 3))) {
+      *number = value;
+    } else if (operation == kExecute && (type == 0x2408 || type == 0x2409)) {
+      auto& memory = state().lensMemory.at(static_cast<std::size_t>(memory_));
+      (type == 0x2408 ? state().lens : memory) = type == 0x2408 ? memory : state().lens;
+    } else {
+      return refuse(now);
+    }
+    confirm(now);
+  }
+
+  std::string typed_;
+  int memory_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<ProjectorSimulator> makeHitachiBeefSimulator() {
+  return std::make_unique<HitachiBeefSimulator>();
+}
+
+}  // namespace pixelflex::devices
