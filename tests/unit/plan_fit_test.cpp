@@ -41,6 +41,9 @@ TEST(PlanFit, WhatIsNotScaledLiesOnWholePixels) {
 TEST(PlanFit, BarsThatNobodySeesAreFilled) {
   const Placement placement = placeDesktop({1999, 1000}, {4000, 2000}, {});
   EXPECT_EQ(shownAt(placement), (Place{{0, 0}, {1999, 1000}}));
+  // 3418 x 1287 made smaller by 1.25.
+  EXPECT_EQ(shownAt(placeDesktop({3418, 1287}, {2734, 1030}, {})), (Place{{0, 0}, {3418, 1287}}));
+  EXPECT_NE(shownAt(placeDesktop({3418, 1287}, {2734, 1032}, {})), (Place{{0, 0}, {3418, 1287}}));
 }
 
 TEST(PlanFit, ARegionIsPlacedAsADesktopOfItsSize) {

@@ -8,7 +8,12 @@
 namespace pixelflex::viewer {
 namespace {
 
-constexpr double kNarrowestBars = 1;  // pixels, of both together
+/// Whether `extent` is `room` made smaller or larger, up to the rounding of all sides to whole pixels.
+bool sameShape(glm::dvec2 room, glm::dvec2 extent) {
+  const glm::dvec2 least = (room - 0.5) / (extent + 0.5);
+  const glm::dvec2 most = (room + 0.5) / (extent - 0.5);
+  return least.x <= most.y && least.y <= most.x;
+}
 
 }  // namespace
 
@@ -25,11 +30,8 @@ Placement placeDesktop(devices::Size wall, devices::Size desktop, const FitOptio
   const glm::dvec2 room(wall.width, wall.height);
   const glm::dvec2 extent(placement.shown.width(), placement.shown.height());
   placement.scale = room / extent;
-  if (options.fit == Fit::kLetterbox) {
-    const double largest = std::min(placement.scale.x, placement.scale.y);
-    for (int axis = 0; axis < 2; ++axis) {
-      if (room[axis] - largest * extent[axis] >= kNarrowestBars) placement.scale[axis] = largest;
-    }
+  if (options.fit == Fit::kLetterbox && !sameShape(room, extent)) {
+    placement.scale = glm::dvec2(std::min(placement.scale.x, placement.scale.y));
   }
   const glm::dvec2 corner = glm::floor((room - placement.scale * extent) / 2.0 + 1e-6);
   placement.shift = corner - placement.scale * glm::dvec2(placement.shown.left, placement.shown.top);

@@ -32,8 +32,8 @@ struct Placement {
 };
 
 /// As large as it can be and in the middle, by whole pixels of the wall's own desktop, so that what is not scaled is
-/// not blurred either. Bars that would not be a pixel wide together are filled. A region is cut to the desktop, and the
-/// whole desktop is shown when nothing is left of it.
+/// not blurred either. Bars that come from the rounding of sides alone are filled. A region is cut to the
+/// desktop, and the whole desktop is shown when nothing is left of it.
 [[nodiscard]] Placement placeDesktop(devices::Size wall, devices::Size desktop, const FitOptions& options);
 
 }  // namespace pixelflex::viewer
