@@ -16,7 +16,7 @@ uniform sampler2D mask;  // of blend and gain
 #endif
 #if BLACK
 uniform sampler2D black;
-uniform float largestBlack;  // light
+uniform vec3 largestBlack;  // light
 #endif
 
 vec3 lightAt(vec2 texel) {

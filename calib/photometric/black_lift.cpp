@@ -4,12 +4,12 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <glm/common.hpp>
 #include <optional>
 #include <vector>
 
 #include "calib/photometric/light_error.h"
 #include "calib/photometric/smooth_bound.h"
-#include "calib/store/calibration.h"
 
 namespace pixelflex::calib {
 namespace {
@@ -21,10 +21,11 @@ constexpr int kBlock = 16;     // pixels
 constexpr double kMargin = 2;  // pixels: further from a border than mappings bend within a block
 constexpr int kNear = 4;       // raster pixels
 
-/// The part of a pixel here that the frame covers, as seen from inside: borders are one pixel wide.
-double coverage(glm::dvec2 p, devices::Size frame) {
-  const double inside = std::min({p.x, frame.width - p.x, p.y, frame.height - p.y});
-  return std::clamp(inside + 0.5, 0.0, 1.0);
+/// The part of a pixel at `p` of `extent` that the frame covers.
+double coverage(glm::dvec2 p, glm::dvec2 extent, devices::Size frame) {
+  const auto inside = [](double distance, double width) { return std::clamp(distance / width + 0.5, 0.0, 1.0); };
+  return inside(p.x, extent.x) * inside(p.y, extent.y) * inside(frame.width - p.x, extent.x) *
+         inside(frame.height - p.y, extent.y);
 }
 
 enum class Side { kInside, kOutside, kBorder };
@@ -50,8 +51,9 @@ Side sideOf(const std::array<MaybePoint, 4>& corners, devices::Size frame) {
 class LiftPainter {
  public:
   LiftPainter(std::size_t own, std::span<const ProjectorMapping> mappings,
-              std::span<const ProjectorLightMaps> projectors, const BlackTarget& black, const WallRaster& raster)
-      : own_(own), mappings_(mappings), projectors_(projectors), black_(black), raster_(raster) {
+              std::span<const ProjectorLightMaps> projectors, const BlackTarget& black, const WallRaster& raster,
+              double largest)
+      : own_(own), mappings_(mappings), projectors_(projectors), black_(black), raster_(raster), largest_(largest) {
     const devices::Size frame = mappings[own].resolution();
     columns_ = (frame.width + kBlock - 1) / kBlock + 1;
     rows_ = (frame.height + kBlock - 1) / kBlock + 1;
@@ -120,8 +122,8 @@ class LiftPainter {
         if (alpha.at(x, y) == 0) continue;
         const glm::dvec2 centre(x + 0.5, y + 0.5);
         const double lift =
-            smooth ? between(corners, (centre - glm::dvec2(first)) / double{kBlock}) : exactLift(centre, lit);
-        const double part = std::min(1.0, lift * alpha.at(x, y) / 65535 / kLargestBlackLift);
+            smooth ? between(corners, (centre - glm::dvec2(first)) / double{kBlock}) : exactLift(centre, lit, corners);
+        const double part = std::min(1.0, lift * alpha.at(x, y) / 65535 / largest_);
         map.at(x, y) = static_cast<std::uint16_t>(std::lround(65535 * part));
       }
     }
@@ -133,13 +135,21 @@ class LiftPainter {
     return top * (1 - t.y) + bottom * t.y;
   }
 
-  [[nodiscard]] double exactLift(glm::dvec2 pointInOwn, const std::vector<std::size_t>& lit) const {
+  /// Of an own pixel in another projector's, along its axes; one pixel where that is not known.
+  [[nodiscard]] glm::dvec2 extentIn(std::size_t projector, const std::array<std::size_t, 4>& corners) const {
+    const auto point = [&](std::size_t k) { return points_[corners.at(k) * mappings_.size() + projector]; };
+    if (!point(0) || !point(1) || !point(2)) return glm::dvec2(1);
+    return (glm::abs(*point(1) - *point(0)) + glm::abs(*point(2) - *point(0))) / double{kBlock};
+  }
+
+  [[nodiscard]] double exactLift(glm::dvec2 pointInOwn, const std::vector<std::size_t>& lit,
+                                 const std::array<std::size_t, 4>& corners) const {
     const auto inWall = mappings_[own_].wallFromProjector(pointInOwn);
     if (!inWall) return 0;
     double leak = 0;
     for (const std::size_t i : lit) {
       const auto point = mappings_[i].projectorFromWall(*inWall);
-      const double part = i == own_ ? 1 : point ? coverage(*point, mappings_[i].resolution()) : 0;
+      const double part = i == own_ ? 1 : point ? coverage(*point, extentIn(i, corners), mappings_[i].resolution()) : 0;
       if (part > 0) leak += part * leakOf(i, *inWall);
     }
     return lift(*inWall, leak);
@@ -150,6 +160,7 @@ class LiftPainter {
   std::span<const ProjectorLightMaps> projectors_;
   const BlackTarget& black_;
   const WallRaster& raster_;
+  double largest_;
   int columns_ = 0;
   int rows_ = 0;
   std::vector<MaybePoint> points_;  // of every corner of a block, in each projector
@@ -194,11 +205,11 @@ BlackTarget blackTarget(std::span<const ProjectorLightMaps> projectors, const Im
 
 devices::Image16 blackLiftMap(std::size_t own, std::span<const ProjectorMapping> mappings,
                               std::span<const ProjectorLightMaps> projectors, const BlackTarget& black,
-                              const WallRaster& raster, const devices::Image16& alpha) {
+                              const WallRaster& raster, const devices::Image16& alpha, double largest) {
   assert(own < mappings.size() && mappings.size() == projectors.size());
   assert(alpha.size() == mappings[own].resolution());
   devices::Image16 map(alpha.size(), 1);
-  LiftPainter(own, mappings, projectors, black, raster).paint(alpha, map);
+  LiftPainter(own, mappings, projectors, black, raster, largest).paint(alpha, map);
   return map;
 }
 

@@ -54,7 +54,7 @@ std::vector<Source> sourcesAt(std::span<const ProjectorLightMaps> projectors, st
 double luminanceGradientPerDegree(double uniformity) {
   assert(uniformity >= 0 && uniformity <= 1);
   constexpr double kSteepest = 0.1;
-  constexpr double kUnseen = 0.006;
+  constexpr double kUnseen = 0.0055;
   if (uniformity <= 0) return kSteepest;
   return std::min(kSteepest, kUnseen * std::pow((1 - uniformity) / uniformity, 1.5));
 }

@@ -18,7 +18,7 @@ struct LuminanceTarget {
 /// The width of the display as the audience sees it from a usual place.
 inline constexpr double kDisplayDegrees = 60;
 
-/// The steepest relative change of the target per degree of view: 10 % (uniformity 0: only what hides seams), 0.6 % (a
+/// The steepest relative change of the target per degree of view: 10 % (uniformity 0: only what hides seams), 0.55 % (a
 /// half: not seen), 0 (1: the same luminance everywhere).
 [[nodiscard]] double luminanceGradientPerDegree(double uniformity);
 

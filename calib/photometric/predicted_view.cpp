@@ -86,7 +86,8 @@ FramePlace PredictedProjector::placeAt(glm::dvec2 inFrame) const {
   for (int c = 0; c < 3; ++c) place.white[c] = sampled(light_.white, inFrame, c);
   place.share = part(light_.share, inFrame, 1, 1);
   place.gain = part(light_.gain, inFrame, 1, 1);
-  place.lift = part(light_.lift, inFrame, 0, kLargestBlackLift);
+  const auto& largest = light_.largestLift;
+  place.lift = part(light_.lift, inFrame, 0, 1) * glm::dvec3(largest[0], largest[1], largest[2]);
   return place;
 }
 

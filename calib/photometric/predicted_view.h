@@ -27,8 +27,9 @@ struct StoredLight {
   std::optional<ResponseCurve> response;  // none: sRGB
   devices::Image16 share;                 // blend mask, 65535 = 1
   Matrix3 colour{1, 0, 0, 0, 1, 0, 0, 0, 1};
-  devices::Image16 gain;  // stretched over the frame, 65535 = 1; empty: 1
-  devices::Image16 lift;  // 65535 = kLargestBlackLift; empty: 0
+  devices::Image16 gain;                // stretched over the frame, 65535 = 1; empty: 1
+  devices::Image16 lift;                // 65535 = 1; empty: 0
+  std::array<double, 3> largestLift{};  // the light of 1
 };
 
 /// How much of the correction the projectors show.
@@ -43,7 +44,7 @@ struct FramePlace {
   glm::dvec3 white{0};  // camera channels, above black
   double share = 1;
   double gain = 1;
-  double lift = 0;
+  glm::dvec3 lift{0};
 };
 
 /// The light that one projector makes, in the camera's channels: V (leak + P h), where V is its white at the place, P

@@ -7,6 +7,7 @@
 #include "calib/estimate/light_field.h"
 #include "calib/photometric/black_lift.h"
 #include "calib/photometric/gamut.h"
+#include "calib/photometric/lift_colour.h"
 #include "calib/photometric/light_error.h"
 #include "calib/photometric/luminance_target.h"
 #include "calib/procedure/procedure_error.h"
@@ -20,6 +21,7 @@ using devices::ImageF;
 
 constexpr int kNodesAcross = 96;    // of a projector's light field and gain map
 constexpr int kRasterAcross = 480;  // of the display
+constexpr double kLiftRoom = 1.1;   // of a lift map, over the largest lift at the raster's pixels
 
 WallRaster rasterOf(const Display& display) {
   const double pitch = (display.right - display.left) / kRasterAcross;
@@ -97,8 +99,8 @@ class LightMatcher {
     fillMaps(leak);
     const double perDegree = kRasterAcross / kDisplayDegrees;
     LightResult result;
-    if (wall_.blend.evenBlack) makeRoomForBlack(leak, perDegree);
-    const LuminanceTarget target = luminanceTarget(maps_, wall_.blend.uniformity.value_or(0), perDegree);
+    if (wall_.blend.evenBlack) targetBlack(leak, perDegree);
+    const LuminanceTarget target = luminanceTarget(besideLift(), wall_.blend.uniformity.value_or(0), perDegree);
     result.kept = target.kept;
     for (std::size_t i = 0; i < mappings_.size(); ++i) addMatch(i, target, result);
     addMeasured(leak, result);
@@ -142,8 +144,7 @@ class LightMatcher {
     maps.share.at(x, y) = static_cast<float>(masks_[i].at(column, row) / 65535.0);
   }
 
-  /// The lift takes room from white: first the black, then a target for what is left.
-  void makeRoomForBlack(const std::vector<double>& leak, double perDegree) {
+  void targetBlack(const std::vector<double>& leak, double perDegree) {
     for (std::size_t i = 0; i < leak.size(); ++i) {
       if (leak[i] >= 0) continue;
       throw ProcedureError(
@@ -157,9 +158,24 @@ class LightMatcher {
       for (float& white : native_[i].white.samples()) white /= static_cast<float>(gamut_.projectors[i].kept);
     }
     black_ = blackTarget(native_, first.target, 0);
-    for (auto& maps : maps_) {
-      for (float& white : maps.white.samples()) white *= static_cast<float>(1 - black_->largestLift);
+    liftColours_ = liftColours(primaries_, native_, *black_);
+  }
+
+  /// What is left for white, from which the lift takes room.
+  [[nodiscard]] std::vector<ProjectorLightMaps> besideLift() const {
+    auto maps = maps_;
+    const auto room = static_cast<float>(black_ ? 1 - largestLight() : 1);
+    for (auto& map : maps) {
+      for (float& white : map.white.samples()) white *= room;
     }
+    return maps;
+  }
+
+  /// That any projector's lift asks of a channel.
+  [[nodiscard]] double largestLight() const {
+    double strongest = 0;
+    for (const auto& colour : liftColours_) strongest = std::max(strongest, std::ranges::max(colour));
+    return std::min(0.5, strongest * black_->largestLift);
   }
 
   void addMatch(std::size_t i, const LuminanceTarget& target, LightResult& result) const {
@@ -170,7 +186,9 @@ class LightMatcher {
     result.images[*match.gain] = gainMap(mappings_[i], maps_[i].white, target.target, raster_, corrected_[i].size());
     if (black_) {
       match.black = "calibration/" + name + "-black.png";
-      result.images[*match.black] = blackLiftMap(i, mappings_, native_, *black_, raster_, masks_[i]);
+      const double largest = kLiftRoom * black_->largestLift;
+      for (std::size_t c = 0; c < 3; ++c) match.largestBlack.at(c) = std::min(1.0, largest * liftColours_[i].at(c));
+      result.images[*match.black] = blackLiftMap(i, mappings_, native_, *black_, raster_, masks_[i], largest);
     }
     result.matches[name] = match;
   }
@@ -202,6 +220,7 @@ class LightMatcher {
   std::vector<ProjectorLightMaps> maps_;    // white as the common gamut leaves it
   std::vector<ProjectorLightMaps> native_;  // white as it is, where black is evened
   std::optional<BlackTarget> black_;
+  std::vector<std::array<double, 3>> liftColours_;
 };
 
 }  // namespace

@@ -109,7 +109,7 @@ std::optional<glm::dvec3> fullWhiteAt(const WallLight& light, std::size_t projec
   const auto& own = light.projectors[projector];
   FramePlace place = own.placeAt(*inside);
   place.share = 1;
-  place.lift = 0;
+  place.lift = glm::dvec3(0);
   return own.lightOf(place, kWhite, correction) - own.lightOf(place, {0, 0, 0}, correction);
 }
 

@@ -48,9 +48,11 @@ std::string lightFigures(const fs::path& folder, const ProjectorCalibration& pro
   const auto gain = drawStretched(readStoredMap(folder, projector.light->gain), "Gain");
   html += figure("third", gain.picture, fmt::format("Gain: {:.2f} (black) to {:.2f} (white).", gain.least, gain.most));
   const auto lift = drawStretched(readStoredMap(folder, projector.light->black), "Lift of black");
+  const auto& largest = projector.light->largestBlack;
+  const double percent = 100 * std::ranges::max(largest);
   return html + figure("third", lift.picture,
                        fmt::format("Lift of black: {:.2f} % (black) to {:.2f} % of white (white).",
-                                   100 * kLargestBlackLift * lift.least, 100 * kLargestBlackLift * lift.most));
+                                   percent * lift.least, percent * lift.most));
 }
 
 std::string photoCaption(const FitQuality& quality) {

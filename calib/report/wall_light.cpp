@@ -60,6 +60,7 @@ std::optional<StoredLight> readLight(const fs::path& folder, const ProjectorCali
   light.colour = projector.light->colour;
   light.gain = readStoredMap(folder, projector.light->gain);
   light.lift = readStoredMap(folder, projector.light->black);
+  light.largestLift = projector.light->largestBlack;
   return light;
 }
 

@@ -95,17 +95,20 @@ struct FitQuality {
   bool operator==(const FitQuality&) const = default;
 };
 
+/// Where a calibration does not say it.
+inline constexpr double kLargestBlackLift = 0.0625;
+
 /// What makes the projectors' light alike. Linear light x of the desktop (1 is white) becomes
-/// alpha * gain * (colour x) + black in this projector's own linear light, per channel, before its inverse response.
+/// alpha * gain * (colour x) + largestBlack * black in this projector's own linear light, per channel, before its inverse
+/// response.
 struct LightMatch {
   std::array<double, 9> colour{1, 0, 0, 0, 1, 0, 0, 0, 1};  // row major
   std::optional<std::string>
       gain;  // 16-bit grey PNG stretched over the frame, 65535 = 1; relative to the wall's folder
-  std::optional<std::string> black;  // 16-bit grey PNG of the projector's resolution, 65535 = kLargestBlackLift
+  std::optional<std::string> black;  // 16-bit grey PNG of the projector's resolution, 65535 = 1
+  std::array<double, 3> largestBlack{kLargestBlackLift, kLargestBlackLift, kLargestBlackLift};  // red, green and blue
   bool operator==(const LightMatch&) const = default;
 };
-
-inline constexpr double kLargestBlackLift = 0.0625;
 
 /// A projector's light as the camera saw it, in the camera's linear channels.
 struct MeasuredLight {

@@ -133,11 +133,20 @@ FitQuality readQuality(const Node& node) {
   return quality;
 }
 
+/// Of the projector's own full red, green and blue.
+std::array<double, 3> readLightColour(const Node& node) {
+  std::array<double, 3> colour{};
+  const auto channels = node.elements(3, 3);
+  for (std::size_t c = 0; c < 3; ++c) colour.at(c) = channels.at(c).number(0, 1);
+  return colour;
+}
+
 LightMatch readLight(const Node& node) {
   LightMatch light;
   light.colour = readArray<9>(node.required("colour"));
   if (const Node file = node.optional("gain"); file.defined()) light.gain = readText(file, kMaxPath);
   if (const Node file = node.optional("black"); file.defined()) light.black = readText(file, kMaxPath);
+  if (const Node black = node.optional("largest_black"); black.defined()) light.largestBlack = readLightColour(black);
   node.refuseUnknownKeys();
   return light;
 }

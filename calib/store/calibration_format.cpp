@@ -86,7 +86,9 @@ std::string samplesText(const std::vector<Sample>& samples) {
 std::string lightText(const LightMatch& light) {
   std::string text = fmt::format("    light: {{colour: {}", yamlList(light.colour));
   if (light.gain) text += ", gain: " + yamlText(*light.gain);
-  if (light.black) text += ", black: " + yamlText(*light.black);
+  if (light.black) {
+    text += fmt::format(", black: {}, largest_black: {}", yamlText(*light.black), yamlList(light.largestBlack));
+  }
   return text + "}\n";
 }
 

@@ -71,6 +71,9 @@ void GlProgram::set(const char* uniform, float value) const {
 void GlProgram::set(const char* uniform, glm::vec2 value) const {
   glProgramUniform2f(program_.get(), location(uniform), value.x, value.y);
 }
+void GlProgram::set(const char* uniform, const glm::vec3& value) const {
+  glProgramUniform3f(program_.get(), location(uniform), value.x, value.y, value.z);
+}
 void GlProgram::set(const char* uniform, glm::vec4 value) const {
   glProgramUniform4f(program_.get(), location(uniform), value.x, value.y, value.z, value.w);
 }

@@ -28,6 +28,7 @@ class GlProgram {
   void set(const char* uniform, int value) const;
   void set(const char* uniform, float value) const;
   void set(const char* uniform, glm::vec2 value) const;
+  void set(const char* uniform, const glm::vec3& value) const;
   void set(const char* uniform, glm::vec4 value) const;
   void set(const char* uniform, glm::ivec2 value) const;
   void set(const char* uniform, glm::ivec3 value) const;

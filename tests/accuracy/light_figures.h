@@ -22,6 +22,7 @@ enum class Figure : std::size_t {
   kGrey,
   kPrimaries,
   kInset,
+  kInsetDark,
   kSlipped,
   kResponse,
   kTextFine,
@@ -32,7 +33,7 @@ enum class Figure : std::size_t {
   kWhite,
   kContrast,
 };
-inline constexpr std::size_t kFigureCount = 22;
+inline constexpr std::size_t kFigureCount = 23;
 
 /// The columns: as PixelFlex shows it, without any correction of light, and by the report's method.
 enum class Correction : std::size_t { kMatched, kNone, kReport };

@@ -104,7 +104,8 @@ class LightBench {
       if (!kind_.inset) {
         addStep(figure, correction, step);
       } else if (code >= 32) {
-        add(Figure::kInset, correction, step.step, fmt::format(" grey {}{}", code, placeText(step.at)));
+        const Figure figureOfInset = code >= 128 ? Figure::kInset : Figure::kInsetDark;
+        add(figureOfInset, correction, step.step, fmt::format(" grey {}{}", code, placeText(step.at)));
       }
     }
   }

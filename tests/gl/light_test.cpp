@@ -70,8 +70,10 @@ void addGain(Case& one, Size size) {
 
 void addBlack(Case& one) {
   one.plan.black = smoothMap(kResolution, 0, 1);
-  one.plan.largestBlack = 0.0625F;
-  one.job.black = [map = one.plan.black](int x, int y) { return 0.0625 * map.at(x, y) / 65535.0; };
+  one.plan.largestBlack = {0.0625F, 0.05F, 0.04F};
+  one.job.black = [map = one.plan.black](int x, int y) {
+    return glm::dvec3(0.0625, 0.05, 0.04) * (map.at(x, y) / 65535.0);
+  };
 }
 
 void addResponse(Case& one) {
@@ -343,7 +345,7 @@ TEST_F(LightTest, PlansWhoseLightIsNotSoundAreErrors) {
   wrong[1].black = Image16({4, 4}, 1);
   wrong[2].black = Image16(kResolution, 3);
   wrong[3].colour[1][1] = std::numeric_limits<float>::quiet_NaN();
-  wrong[4].largestBlack = std::numeric_limits<float>::infinity();
+  wrong[4].largestBlack.y = std::numeric_limits<float>::infinity();
   for (const auto& plan : wrong) {
     WallRenderer renderer(context_);
     EXPECT_THROW(renderer.setPlans({plan}), RendererError);

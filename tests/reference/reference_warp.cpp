@@ -87,7 +87,7 @@ double matchedLight(const glm::dvec3& light, int channel, int x, int y, const Jo
   if (!job.gain.empty()) {
     matched *= stretched(job.gain, {(x + 0.5) / job.resolution.width, (y + 0.5) / job.resolution.height});
   }
-  if (job.black) matched += job.black(x, y);
+  if (job.black) matched += job.black(x, y)[channel];
   return std::clamp(matched, 0.0, 1.0);
 }
 

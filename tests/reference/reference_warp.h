@@ -27,7 +27,7 @@ struct Job {
   std::array<double, 9> colour{1, 0, 0, 0, 1, 0, 0, 0, 1};      // row major
   std::function<double(int x, int y)> alpha;                    // empty: 1
   devices::Image16 gain;                                        // stretched over the frame, 65535 = 1; empty: 1
-  std::function<double(int x, int y)> black;                    // light; empty: 0
+  std::function<glm::dvec3(int x, int y)> black;                // light; empty: 0
   std::function<double(double light, int channel)> deviceCode;  // 0..1 for light; empty: sRGB
   double highestCode = 255;
 };

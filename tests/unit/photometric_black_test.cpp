@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "calib/photometric/black_lift.h"
+#include "calib/photometric/lift_colour.h"
 #include "calib/photometric/light_error.h"
 #include "calib/photometric/luminance_target.h"
-#include "calib/store/calibration.h"
 #include "tests/unit/photometric_wall.h"
 
 namespace pixelflex::calib {
 namespace {
+
+constexpr double kLargest = 0.0625;  // what a lift map holds
 
 class BlackLift : public ::testing::Test {
  protected:
@@ -26,7 +29,7 @@ class BlackLift : public ::testing::Test {
           alpha.at(x, y) = static_cast<std::uint16_t>(std::lround(65535 * wall_.shareAt(i, inWall)));
         }
       }
-      lifts_.push_back(blackLiftMap(i, wall_.mappings, maps_, black_, wall_.raster, alpha));
+      lifts_.push_back(blackLiftMap(i, wall_.mappings, maps_, black_, wall_.raster, alpha, kLargest));
     }
   }
 
@@ -43,7 +46,7 @@ class BlackLift : public ::testing::Test {
       const auto p = wall_.mappings[i].projectorFromWall(pointInWall);
       if (!p || !wall_.mappings[i].insideFrame(*p)) continue;
       const double part = lifts_[i].at(static_cast<int>(p->x), static_cast<int>(p->y)) / 65535.0;
-      sum += part * kLargestBlackLift * wall_.whiteAt(i, pointInWall);
+      sum += part * kLargest * wall_.whiteAt(i, pointInWall);
     }
     return sum;
   }
@@ -128,9 +131,50 @@ TEST_F(BlackLift, ABoundInsteadOfAConstantCostsLessContrast) {
 TEST_F(BlackLift, LargestLiftIsWhatTheMapsHold) {
   lift(0);
   double most = 0;
-  for (const auto& map : lifts_) most = std::max(most, std::ranges::max(map.samples()) / 65535.0 * kLargestBlackLift);
+  for (const auto& map : lifts_) most = std::max(most, std::ranges::max(map.samples()) / 65535.0 * kLargest);
   EXPECT_GT(most, 0.9 * black_.largestLift);
-  EXPECT_LT(black_.largestLift, kLargestBlackLift);
+  EXPECT_LT(black_.largestLift, kLargest);
+}
+
+/// The leaks are tinted like the whites; one projector, in the middle of the lit area, leaks most.
+TEST_F(BlackLift, LiftsHaveTheColourThatIsMissing) {
+  const std::vector<glm::dvec3> tints = {{1.08, 1, 0.92}, {0.95, 1, 1.06}, {1, 0.96, 1}, {0.93, 1, 1.07}};
+  std::vector<Matrix3> primaries;
+  for (std::size_t i = 0; i < maps_.size(); ++i) {
+    primaries.push_back({tints[i].x, 0, 0, 0, tints[i].y, 0, 0.02, 0, tints[i].z});
+  }
+  const glm::dvec3 weights(kCameraLuminance[0], kCameraLuminance[1], kCameraLuminance[2]);
+  const auto made = [&](std::size_t i, glm::dvec3 own) {
+    const auto& m = primaries[i];
+    return glm::dvec3(m[0] * own.x, m[4] * own.y, m[6] * own.x + m[8] * own.z);
+  };
+  lift(0);
+  const auto colours = liftColours(primaries, maps_, black_);
+  // Where four overlap black is native; in the middle of each frame's own part it is leak and lift.
+  glm::dvec3 native(0);
+  for (std::size_t i = 0; i < maps_.size(); ++i) {
+    const glm::dvec3 white = made(i, glm::dvec3(1));
+    native += wall_.blackAt(i, {360, 265}) * white / glm::dot(weights, white);
+  }
+  native /= glm::dot(weights, native);
+  const std::vector<glm::dvec2> middles = {{150, 120}, {560, 120}, {150, 410}, {560, 410}};
+  for (std::size_t i = 0; i < maps_.size(); ++i) {
+    const glm::dvec3 white = made(i, glm::dvec3(1));
+    const double luminance = glm::dot(weights, white);
+    const glm::dvec3 own(colours[i][0], colours[i][1], colours[i][2]);
+    EXPECT_NEAR(glm::dot(weights, made(i, own)) / luminance, 1, 1e-6) << i;
+    const double leak = leakAt(middles[i]);
+    const glm::dvec3 black = leak * white / luminance + (black_.target.at(0, 0) - leak) * made(i, own) / luminance;
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(black[c] / black_.target.at(0, 0), native[c], 0.01) << i << ' ' << c;
+  }
+}
+
+TEST_F(BlackLift, LiftsOfProjectorsThatAreAlikeAreWhite) {
+  lift(0);
+  const std::vector<Matrix3> primaries(maps_.size(), Matrix3{1, 0, 0, 0, 1, 0, 0, 0, 1});
+  for (const auto& colour : liftColours(primaries, maps_, black_)) {
+    for (const double channel : colour) EXPECT_NEAR(channel, 1, 1e-6);
+  }
 }
 
 TEST_F(BlackLift, NoLeakSeenIsRefused) {

@@ -80,14 +80,15 @@ TEST(PredictedProjector, CorrectedItsLightIsTheDesktopsTimesEachPart) {
   light.leak = 0.01;
   light.share = evenMap(kFrame, 0.5);
   light.gain = evenMap({3, 3}, 0.8);
-  light.lift = evenMap(kFrame, 0.02 / kLargestBlackLift);
+  light.lift = evenMap(kFrame, 0.5);
+  light.largestLift = {0.04, 0.06, 0.02};
   light.colour = {0.9, 0, 0, 0, 1, 0, 0, 0.1, 0.8};
   const double grey = std::pow((128 / 255.0 + 0.055) / 1.055, 2.4);
   const PredictedProjector projector(light, Transfer::kSrgb);
   const auto place = projector.placeAt({0.3, 0.7});
   const double h = 0.4 * 0.9 * grey;
   expectLight(projector.lightOf(place, {128, 128, 128}, Correction::kWhole),
-              {10 * (0.03 + h), 20 * (0.03 + 0.4 * grey), 30 * (0.03 + h)});
+              {10 * (0.03 + h), 20 * (0.04 + 0.4 * grey), 30 * (0.02 + h)});
   expectLight(projector.lightOf(place, {128, 128, 128}, Correction::kShares),
               {10 * (0.01 + 0.5 * grey), 20 * (0.01 + 0.5 * grey), 30 * (0.01 + 0.5 * grey)});
 }

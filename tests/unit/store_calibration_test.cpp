@@ -66,8 +66,10 @@ TEST(StoreCalibration, RoundTripsBentScreensResidualsAndPlaces) {
   auto& p1 = calibration.projectors[0];
   p1.model.bend = calib::Bend{-2500, 12, {1e-4, 2, 3}};
   p1.model.residual = calib::ResidualSpline{1, 2, std::vector<glm::dvec2>(20, {0.0625, -0.03})};
-  p1.light =
-      calib::LightMatch{{0.9, 0.01, 0, 0, 0.95, 0, 0.02, 0, 1}, "calibration/p1-gain.png", "calibration/p1 black.png"};
+  p1.light = calib::LightMatch{{0.9, 0.01, 0, 0, 0.95, 0, 0.02, 0, 1},
+                               "calibration/p1-gain.png",
+                               "calibration/p1 black.png",
+                               {0.125, 0.0625, 0.03125}};
   p1.measured = calib::MeasuredLight{"calibration/p1-white.png", 211.5, {1, 0.1, 0, 0, 2, 0, 0.25, 0, 3}, true, 0.002};
   p1.quality.heldOut = 0.031;
   p1.quality.deviation = 0.007;

@@ -56,6 +56,9 @@ ProjectorLight readLight(const std::filesystem::path& folder, const calib::Proje
   light.colour = matrixOf(projector.light->colour);
   light.gain = readMap(folder, projector.light->gain, std::nullopt);
   light.black = readMap(folder, projector.light->black, projector.resolution);
+  for (int c = 0; c < 3; ++c) {
+    light.largestBlack[c] = static_cast<float>(projector.light->largestBlack.at(static_cast<std::size_t>(c)));
+  }
   return light;
 }
 

@@ -23,6 +23,7 @@ struct ProjectorLight {
   devices::Image16 alpha;
   devices::Image16 gain;
   devices::Image16 black;
+  glm::vec3 largestBlack{0};
   std::array<std::vector<float>, 3> inverseResponse;
 };
 

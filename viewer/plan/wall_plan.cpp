@@ -134,7 +134,7 @@ OutputPlan WallPlan::outputFor(std::size_t index, devices::Size desktop) const {
       .alpha = light.alpha,
       .gain = light.gain,
       .black = light.black,
-      .largestBlack = static_cast<float>(calib::kLargestBlackLift),
+      .largestBlack = light.largestBlack,
       .inverseResponse = light.inverseResponse,
       .transfer = wall_.transfer == calib::Transfer::kSrgb ? DesktopTransfer::kSrgb : DesktopTransfer::kLinear,
       .filter = filterOf(wall_.desktop.filter),

@@ -28,8 +28,9 @@ void checkGain(const OutputPlan& plan) {
 }
 
 void checkNumbers(const OutputPlan& plan) {
-  bool sound = std::isfinite(plan.largestBlack);
+  bool sound = true;
   for (int column = 0; column < 3; ++column) {
+    sound = sound && std::isfinite(plan.largestBlack[column]);
     for (int row = 0; row < 3; ++row) sound = sound && std::isfinite(plan.colour[column][row]);
   }
   if (!sound) throw RendererError(fmt::format("the colour matrix or black level of '{}' is not finite", plan.name));

@@ -29,7 +29,7 @@ class OutputLight {
   void makeResponse(const OutputPlan& plan);
 
   glm::mat3 colour_{1};
-  float largestBlack_ = 0;
+  glm::vec3 largestBlack_{0};
   glm::ivec3 responseEntries_{0, 0, 0};
   devices::GlTexture mask_;  // times gain: one fetch for both
   devices::GlTexture black_;

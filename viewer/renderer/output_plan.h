@@ -42,8 +42,8 @@ enum class Filter { kCatmullRom, kBilinear, kNearest };
 enum class FilterDomain { kSrgb, kLinear };
 
 /// All that the renderer needs to know about one projector: a value, made by the program from the calibration, off the
-/// render thread. Linear light x of the desktop (1 is white) becomes alpha * gain * (colour x) + black, held within 0
-/// and 1, before the inverse response.
+/// render thread. Linear light x of the desktop (1 is white) becomes alpha * gain * (colour x) + largestBlack * black,
+/// held within 0 and 1, before the inverse response.
 struct OutputPlan {
   std::string name;
   devices::Size resolution;
@@ -53,8 +53,8 @@ struct OutputPlan {
   devices::Image16 alpha;  // one channel of `resolution`, 65535 = 1; empty: 1 everywhere
   devices::Image16 gain;   // one channel of any size, a picture stretched over the frame and linear between the centres
                            // of its pixels, 65535 = 1; empty: 1 everywhere
-  devices::Image16 black;  // one channel of `resolution`, 65535 = largestBlack; empty: 0
-  float largestBlack = 1;  // light
+  devices::Image16 black;  // one channel of `resolution`, 65535 = 1; empty: 0
+  glm::vec3 largestBlack{1};  // light
   std::array<std::vector<float>, 3> inverseResponse;  // per channel: device code 0..1 for light^(1/2.2), evenly spaced;
                                                       // empty: sRGB
   DesktopTransfer transfer = DesktopTransfer::kSrgb;
