@@ -32,8 +32,12 @@ const Event& as(const xcb_generic_event_t& event) {
 
 class Clipboard::Worker {
  public:
-  Worker(std::size_t limit, std::function<void(std::string)> onCopied)
-      : onCopied_(std::move(onCopied)), incoming_(desk_, limit), outgoing_(desk_), woken_(eventfd(0, EFD_CLOEXEC)) {
+  Worker(Selection selection, std::size_t limit, ClipboardHandlers handlers)
+      : handlers_(std::move(handlers)),
+        desk_(selection == Selection::kPrimary ? "PRIMARY" : "CLIPBOARD"),
+        incoming_(desk_, limit),
+        outgoing_(desk_),
+        woken_(eventfd(0, EFD_CLOEXEC)) {
     incoming_.ask();
     thread_ = std::thread([this] { run(); });
   }
@@ -94,10 +98,11 @@ class Clipboard::Worker {
   }
 
   void hand(std::optional<std::string> text) {
-    if (text && !text->empty()) onCopied_(*std::move(text));
+    if (incoming_.takeTooLong()) handlers_.tooLong();
+    if (text && !text->empty()) handlers_.copied(*std::move(text));
   }
 
-  std::function<void(std::string)> onCopied_;
+  ClipboardHandlers handlers_;
   SelectionDesk desk_;
   IncomingSelection incoming_;
   OutgoingSelection outgoing_;
@@ -108,8 +113,8 @@ class Clipboard::Worker {
   std::thread thread_;
 };
 
-Clipboard::Clipboard(std::size_t limit, std::function<void(std::string text)> onCopied)
-    : worker_(std::make_unique<Worker>(limit, std::move(onCopied))) {}
+Clipboard::Clipboard(Selection selection, std::size_t limit, ClipboardHandlers handlers)
+    : worker_(std::make_unique<Worker>(selection, limit, std::move(handlers))) {}
 
 Clipboard::~Clipboard() = default;
 

@@ -7,13 +7,23 @@
 
 namespace pixelflex::devices {
 
-/// The clipboard of the environment's X display, the selection CLIPBOARD, as UTF-8 text. On a connection and a thread
-/// of its own: programs that copy or paste slowly, or never answer, hold up nobody here.
+enum class Selection {
+  kClipboard,  // what is copied and pasted
+  kPrimary,    // what is marked with the mouse and pasted with its middle button
+};
+
+/// What other programs do, called from the clipboard's thread.
+struct ClipboardHandlers {
+  std::function<void(std::string text)> copied;
+  std::function<void()> tooLong;  // a text beyond the limit was copied
+};
+
+/// One of the two clipboards of the environment's X display, as UTF-8 text. On a connection and a thread of its own:
+/// programs that copy or paste slowly, or never answer, hold up nobody here.
 class Clipboard {
  public:
-  /// `onCopied` is called from the clipboard's thread with what another program copied, if it is text of at most
-  /// `limit` bytes. What was copied before this began counts as well. Throws DisplayError.
-  Clipboard(std::size_t limit, std::function<void(std::string text)> onCopied);
+  /// Takes texts of at most `limit` bytes. What was copied before this began counts as well. Throws DisplayError.
+  Clipboard(Selection selection, std::size_t limit, ClipboardHandlers handlers);
   ~Clipboard();
   Clipboard(const Clipboard&) = delete;
   Clipboard& operator=(const Clipboard&) = delete;

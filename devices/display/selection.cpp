@@ -33,9 +33,9 @@ void SelectionDesk::Disconnect::operator()(xcb_connection_t* x) const {
   xcb_disconnect(x);
 }
 
-SelectionDesk::SelectionDesk() : x_(xcb_connect(nullptr, nullptr)) {
+SelectionDesk::SelectionDesk(std::string_view name) : x_(xcb_connect(nullptr, nullptr)) {
   if (xcb_connection_has_error(x()) != 0) throw DisplayError("cannot reach the display's clipboard");
-  clipboard = atom("CLIPBOARD");
+  selection = atom(name);
   utf8 = atom("UTF8_STRING");
   targets = atom("TARGETS");
   incremental = atom("INCR");
@@ -60,18 +60,19 @@ void SelectionDesk::watchOwner(std::uint32_t root) {
   if (fixes == nullptr || fixes->present == 0) throw DisplayError("the X server has no XFixes: no clipboard");
   std::free(xcb_xfixes_query_version_reply(x(), xcb_xfixes_query_version(x(), 5, 0), nullptr));
   ownerChanged = fixes->first_event + XCB_XFIXES_SELECTION_NOTIFY;
-  xcb_xfixes_select_selection_input(x(), root, clipboard, XCB_XFIXES_SELECTION_EVENT_MASK_SET_SELECTION_OWNER);
+  xcb_xfixes_select_selection_input(x(), root, selection, XCB_XFIXES_SELECTION_EVENT_MASK_SET_SELECTION_OWNER);
 }
 
 void IncomingSelection::ask() {
   parts_.reset();
   tooLong_ = false;
-  xcb_convert_selection(desk_.x(), desk_.window, desk_.clipboard, desk_.utf8, desk_.property, XCB_CURRENT_TIME);
+  xcb_convert_selection(desk_.x(), desk_.window, desk_.selection, desk_.utf8, desk_.property, XCB_CURRENT_TIME);
 }
 
 std::optional<std::string> IncomingSelection::answered(std::uint32_t property) {
   if (property == XCB_NONE) return std::nullopt;
   auto [type, bytes] = take();
+  refused_ = type == desk_.utf8 && !bytes;
   if (type == desk_.utf8) return bytes;
   if (type == desk_.incremental) parts_.emplace();
   return std::nullopt;
@@ -86,6 +87,7 @@ std::optional<std::string> IncomingSelection::continued() {
   if (!last && !tooLong_) *parts_ += *bytes;
   if (!last) return std::nullopt;
   auto text = std::exchange(parts_, std::nullopt);
+  refused_ = tooLong_;
   return tooLong_ ? std::nullopt : text;
 }
 
@@ -103,7 +105,7 @@ std::pair<std::uint32_t, std::optional<std::string>> IncomingSelection::take() {
 
 void OutgoingSelection::offer(std::string text) {
   text_ = std::move(text);
-  xcb_set_selection_owner(desk_.x(), desk_.window, desk_.clipboard, XCB_CURRENT_TIME);
+  xcb_set_selection_owner(desk_.x(), desk_.window, desk_.selection, XCB_CURRENT_TIME);
 }
 
 void OutgoingSelection::serve(const xcb_selection_request_event_t& request) {

@@ -18,12 +18,12 @@ namespace pixelflex::devices {
 /// atoms are X's 32-bit numbers.
 class SelectionDesk {
  public:
-  /// On the environment's display; follows who owns the clipboard. Throws DisplayError.
-  SelectionDesk();
+  /// On the environment's display; follows who owns the selection of this name. Throws DisplayError.
+  explicit SelectionDesk(std::string_view selection);
 
   [[nodiscard]] xcb_connection_t* x() const { return x_.get(); }
 
-  std::uint32_t clipboard = 0, utf8 = 0, targets = 0, incremental = 0, property = 0;
+  std::uint32_t selection = 0, utf8 = 0, targets = 0, incremental = 0, property = 0;
   std::uint32_t window = 0;
   int ownerChanged = -1;  // event number
 
@@ -47,6 +47,8 @@ class IncomingSelection {
   std::optional<std::string> answered(std::uint32_t property);
   /// The property has a new value: the text, when this was the empty part after the last.
   std::optional<std::string> continued();
+  /// What came last was text beyond the limit. Once for each.
+  [[nodiscard]] bool takeTooLong() { return std::exchange(refused_, false); }
 
  private:
   std::pair<std::uint32_t, std::optional<std::string>> take();
@@ -54,7 +56,8 @@ class IncomingSelection {
   const SelectionDesk& desk_;
   std::size_t limit_;
   std::optional<std::string> parts_;
-  bool tooLong_ = false;
+  bool tooLong_ = false;  // of the parts
+  bool refused_ = false;
 };
 
 /// The text that others paste.

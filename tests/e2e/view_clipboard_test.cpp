@@ -24,6 +24,7 @@ class ClipboardTest : public ScreensTest, public ::testing::WithParamInterface<c
     const auto file = folder_ / ("copied" + std::to_string(++copies_));
     writeText(file, text);
     x.start({"xclip", "-selection", selection, "-quiet", "-i", file.string()});
+    ASSERT_TRUE(pastesOn(x, text, selection)) << "where it was copied";
   }
   static bool pastesOn(XServer& x, const std::string& text, const std::string& selection = "clipboard") {
     return comesTrue([&] {
@@ -45,6 +46,34 @@ TEST_P(ClipboardTest, WhatIsCopiedOnEitherSideIsPastedOnTheOther) {
   expectBothWays("ten bytes!");
   expectBothWays("Grüße, 你好 → ok");
   expectBothWays(longText());
+}
+
+TEST_P(ClipboardTest, WhatIsMarkedOnEitherSideIsPastedOnTheOther) {
+  startSession();
+  copyOn(screen_, "marked here", "primary");
+  EXPECT_TRUE(pastesOn(desktop_->x(), "marked here", "primary")) << log();
+  copyOn(desktop_->x(), "marked there", "primary");
+  EXPECT_TRUE(pastesOn(screen_, "marked there", "primary")) << log();
+}
+
+TEST_P(ClipboardTest, WhatIsMarkedStaysAloneWhenThatIsWished) {
+  startSession({"--primary", "off"});
+  copyOn(screen_, "marked here", "primary");
+  expectBothWays("copied");
+  EXPECT_EQ(answer(screen_, {"xclip", "-selection", "primary", "-o"}), "marked here");
+}
+
+TEST_P(ClipboardTest, LongTextsAreRefusedOnceInWordsAndDoNoHarm) {
+  startSession({"--clipboard-limit", "5000"});
+  copyOn(screen_, longText() + "1");
+  EXPECT_TRUE(comesTrue([&] { return logHolds("more than 5000 bytes was copied here and stays there"); })) << log();
+  copyOn(desktop_->x(), longText() + "2");
+  EXPECT_TRUE(comesTrue([&] { return logHolds("more than 5000 bytes was copied on the desktop and stays"); })) << log();
+  const std::string said = log();
+  copyOn(screen_, longText() + "3");
+  copyOn(desktop_->x(), longText() + "4");
+  expectBothWays("short");
+  EXPECT_EQ(log(), said);
 }
 
 INSTANTIATE_TEST_SUITE_P(Through, ClipboardTest, ::testing::Values("vnc", "x11"),

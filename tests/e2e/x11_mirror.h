@@ -18,7 +18,8 @@ namespace pixelflex::testing {
 
 /// A local session's desktop in memory.
 [[nodiscard]] inline std::unique_ptr<DesktopMirror> mirrorOf(const std::string& display) {
-  return std::make_unique<DesktopMirror>(makeLocal({.display = viewer::parseXDisplay(display)}));
+  return std::make_unique<DesktopMirror>(
+      makeLocal({.display = viewer::parseXDisplay(display), .clipboardLimit = std::size_t{4} << 20}));
 }
 
 /// Xvfb with depth 24, at a display number of its own choice unless one is given in `more`.

@@ -25,10 +25,15 @@ using namespace std::chrono_literals;
 
 class ClipboardTest : public ::testing::Test {
  protected:
-  ClipboardTest() : server_(320, 240), clipboard_(200'000, [this](std::string text) { receive(std::move(text)); }) {}
+  explicit ClipboardTest(Selection selection = Selection::kClipboard)
+      : xclip_(std::string("xclip -selection ") + (selection == Selection::kPrimary ? "primary" : "clipboard")),
+        server_(320, 240),
+        clipboard_(selection, 200'000,
+                   {[this](std::string text) { receive(std::move(text)); }, [this] { receive("too long"); }}) {}
 
   void receive(std::string text) {
     const std::scoped_lock lock(mutex_);
+    all_ += text;
     received_ = std::move(text);
     arrived_.notify_all();
   }
@@ -36,29 +41,31 @@ class ClipboardTest : public ::testing::Test {
     std::unique_lock lock(mutex_);
     return arrived_.wait_for(lock, 20s, [&] { return received_ == text; });
   }
-  void copyWithXclip(const std::string& text) {
+  void copyWithXclip(const std::string& text) const {
     const auto file = folder_ / "text";
     std::ofstream(file, std::ios::binary) << text;
-    ASSERT_EQ(std::system(("xclip -selection clipboard -i " + file.string()).c_str()), 0);
+    ASSERT_EQ(std::system((xclip_ + " -i " + file.string()).c_str()), 0);
   }
   /// Empty as long as the clipboard is not ours.
-  static std::string pasteWithXclip() {
+  [[nodiscard]] std::string pasteWithXclip() const {
     std::string text;
-    FILE* const pipe = popen("xclip -selection clipboard -o -t UTF8_STRING 2>/dev/null", "r");
+    FILE* const pipe = popen((xclip_ + " -o -t UTF8_STRING 2>/dev/null").c_str(), "r");
     for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
     pclose(pipe);
     return text;
   }
-  static bool pastes(const std::string& text) {
+  [[nodiscard]] bool pastes(const std::string& text) const {
     for (int i = 0; i < 200 && pasteWithXclip() != text; ++i) usleep(50'000);
     return pasteWithXclip() == text;
   }
 
   const testing::TemporaryFolder folder_;
+  const std::string xclip_;
   testing::XServer server_;
   std::mutex mutex_;
   std::condition_variable arrived_;
   std::string received_;
+  std::string all_;
   Clipboard clipboard_;
 };
 
@@ -79,7 +86,12 @@ TEST_F(ClipboardTest, TakesLongTextsUpToItsLimit) {
   const std::string text = longText(100'000);
   copyWithXclip(text);
   EXPECT_TRUE(receives(text));
-  copyWithXclip(longText(3'000'000));
+  copyWithXclip(longText(200'001));
+  EXPECT_TRUE(receives("too long"));
+  copyWithXclip("ten bytes!");
+  EXPECT_TRUE(receives("ten bytes!"));
+  copyWithXclip(longText(3'000'000));  // in parts
+  EXPECT_TRUE(receives("too long"));
   copyWithXclip("after");
   EXPECT_TRUE(receives("after")) << "a text that is too long leaves no harm";
 }
@@ -95,6 +107,26 @@ TEST_F(ClipboardTest, GivesLongTextsInParts) {
   const std::string text = longText(1'300'000);
   clipboard_.set(text);
   EXPECT_TRUE(pastes(text));
+}
+
+class PrimaryTest : public ClipboardTest {
+ protected:
+  PrimaryTest() : ClipboardTest(Selection::kPrimary) {}
+};
+
+TEST_F(PrimaryTest, IsWhatOthersMarkAndPasteWithTheMiddleButton) {
+  copyWithXclip("markiert");
+  EXPECT_TRUE(receives("markiert"));
+  clipboard_.set("from here");
+  EXPECT_TRUE(pastes("from here"));
+}
+
+TEST_F(PrimaryTest, IsNotTheClipboard) {
+  ASSERT_EQ(std::system("echo copied | xclip -selection clipboard -i"), 0);
+  copyWithXclip("marked");
+  EXPECT_TRUE(receives("marked"));
+  const std::scoped_lock lock(mutex_);
+  EXPECT_EQ(all_, "marked");
 }
 
 bool isBlanked(const std::string& display) {

@@ -152,6 +152,7 @@ TEST(ExtendedClipboard, LeavesOutWhatIsTooLong) {
   DesktopMirror mirror(options);
   EXPECT_TRUE(mirror.pumpUntil([&] { return mirror.last<Bell>().has_value(); })) << mirror.summary();
   EXPECT_EQ(mirror.last<Clipboard>(), Clipboard{"short"});
+  EXPECT_EQ(mirror.last<ClipboardRefused>(), (ClipboardRefused{true, 100'000}));
 }
 
 TEST(Pointer, SendsSideButtonsToServersThatTakeThem) {

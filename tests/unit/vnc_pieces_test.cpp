@@ -47,10 +47,12 @@ TEST(InputQueue, KeepsTheOrderAroundKeys) {
   queue.add(PointerInput{1, 1, 0});
   queue.add(KeyInput{'a', true});
   queue.add(PointerInput{2, 2, 0});
+  queue.add(ClipboardInput{"marked", Selection::kPrimary});
   queue.add(ClipboardInput{"old"});
   queue.add(ClipboardInput{"new"});
-  EXPECT_EQ(queue.takeAll(), (std::vector<Input>{PointerInput{1, 1, 0}, KeyInput{'a', true}, PointerInput{2, 2, 0},
-                                                 ClipboardInput{"new"}}));
+  EXPECT_EQ(queue.takeAll(),
+            (std::vector<Input>{PointerInput{1, 1, 0}, KeyInput{'a', true}, PointerInput{2, 2, 0},
+                                ClipboardInput{"marked", Selection::kPrimary}, ClipboardInput{"new"}}));
 }
 
 TEST(TextEncoding, GoesBetweenLatin1AndUtf8) {

@@ -120,6 +120,12 @@ int main(int argc, char** argv) {
   app.add_option("--clipboard-limit", options.clipboardLimit, "bytes of the longest text to copy; 0: no clipboard")
       ->check(CLI::Range(0, 256 << 20))
       ->capture_default_str();
+  std::string primary = "on";
+  app.add_option("--primary", primary,
+                 "whether what is marked with the mouse, for its middle button, goes both ways like what is copied; a "
+                 "VNC desktop has one clipboard for both")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str();
   app.add_option("--password-file", options.passwordFile,
                  "the first line is the password, or vncpasswd wrote it; mode 0600. Without it PIXELFLEX_VNC_PASSWORD "
                  "is taken, or the terminal is asked");
@@ -167,6 +173,7 @@ int main(int argc, char** argv) {
     options.stats = stats == "log";
     options.statsOverlay = stats == "overlay";
     if (!region.empty()) options.fit.region = pixelflex::viewer::parseRegion(region);
+    options.primary = primary == "on";
     using pixelflex::viewer::Resize;
     if (resize) options.resize = screens == "one" ? Resize::kOneScreen : Resize::kScreenPerProjector;
     options.server = pixelflex::viewer::parseServerAddress(server);

@@ -45,6 +45,7 @@ struct ViewOptions {
   bool grab = false;                                  // all keys go to the desktop
   bool control = false;                               // a window with the whole desktop beside the wall
   std::size_t clipboardLimit = std::size_t{1} << 20;  // bytes; 0: no clipboard
+  bool primary = true;                                // what is marked with the mouse goes both ways, too
   std::optional<std::string> passwordFile;
   std::optional<std::string> password;  // out of that file, the environment or a prompt
   std::string user;

@@ -63,7 +63,10 @@ WallView::WallView(const ViewOptions& options, const WallPlan& wall, devices::Gl
 }
 
 std::unique_ptr<DesktopSource> WallView::openSource() {
-  LocalSessionOptions local{.viewOnly = options_.viewOnly, .retry = retryOf(options_)};
+  LocalSessionOptions local{.viewOnly = options_.viewOnly,
+                            .clipboardLimit = options_.clipboardLimit,
+                            .primary = options_.primary,
+                            .retry = retryOf(options_)};
   if (options_.server.isXDisplay()) {
     local.display = parseXDisplay(options_.server.xDisplay);
   } else if (const auto display = displayInstead(options_)) {
@@ -74,6 +77,7 @@ std::unique_ptr<DesktopSource> WallView::openSource() {
   } else {
     return std::make_unique<Session>(sessionOptions(options_), belt_, wake_);
   }
+  local_ = true;
   return std::make_unique<LocalSession>(local, belt_, wake_);
 }
 
@@ -83,6 +87,7 @@ WallView::Step WallView::step() {
     picture_.unring();
   }
   for (const auto& event : source_->takeEvents()) handle(event);
+  for (auto& [text, selection] : texts_.takeForDesktop()) source_->sendClipboard(std::move(text), selection);
   while (Batch* batch = belt_.take()) {
     if (batch->desktop != desktop_) adopt(batch->desktop);
     const auto begin = Clock::now();
@@ -100,7 +105,7 @@ WallView::Step WallView::step() {
   Step step;
   step.plansChanged = std::exchange(plansChanged_, false);
   step.bell = std::exchange(bell_, false);
-  step.copied = std::exchange(copiedThere_, std::nullopt);
+  step.copied = texts_.takeFromDesktop();
   const auto begin = Clock::now();
   if (renderer_.fading() && begin >= fadeDue_) renderer_.fadeDamage();
   step.drawn = renderer_.draw();
@@ -119,8 +124,7 @@ void WallView::handle(const SessionEvent& event) {
     desktopName_ = connected->name;
     connected_ = true;
     if (!hasPicture_) pointer_ = {connected->size.width / 2, connected->size.height / 2};
-    const std::scoped_lock lock(copiedMutex_);
-    if (!copiedHere_.empty()) source_->sendClipboard(copiedHere_);
+    texts_.sendAgain();
     // What is shown stays until there is a picture to replace it.
     if (!hasPicture_) adopt(connected->size);
     requestLayout();
@@ -142,9 +146,9 @@ void WallView::handle(const SessionEvent& event) {
     pointer_ = {moved->x, moved->y};
     picture_.moveCursor(pointer_);
   } else if (const auto* text = std::get_if<Clipboard>(&event)) {
-    copiedThere_ = text->text;
-    const std::scoped_lock lock(copiedMutex_);
-    copiedHere_.clear();
+    texts_.copyThere(*text, !local_);
+  } else if (const auto* tooLong = std::get_if<ClipboardRefused>(&event)) {
+    refuse(*tooLong);
   } else if (std::holds_alternative<Bell>(event)) {
     bell_ = true;
   } else if (const auto* lost = std::get_if<Lost>(&event)) {
@@ -158,6 +162,7 @@ void WallView::handle(const SessionEvent& event) {
 void WallView::lose(const std::string& reason) {
   connected_ = false;
   if (std::exchange(direct_, false)) {
+    local_ = false;
     // Whether its display will be the same when it returns, nobody knows.
     SessionOptions waiting = sessionOptions(options_);
     waiting.retry = Retry::kAlways;
@@ -214,12 +219,16 @@ void WallView::findPointer() {
   ringUntil_ = Clock::now() + std::chrono::seconds(1);
 }
 
-void WallView::copy(std::string text) {
-  {
-    const std::scoped_lock lock(copiedMutex_);
-    copiedHere_ = text;
-  }
-  source_->sendClipboard(std::move(text));
+void WallView::copy(Selection selection, std::string text) {
+  texts_.copyHere({std::move(text), selection});
+  wake_();
+}
+
+void WallView::refuse(const ClipboardRefused& refused) {
+  if (!texts_.isNew(refused)) return;
+  fmt::print(stderr, "pixelflex-view: a text of more than {} bytes was copied {} and stays there{}\n", refused.limit,
+             refused.onDesktop ? "on the desktop" : "here",
+             refused.limit == options_.clipboardLimit ? "; see --clipboard-limit" : "");
 }
 
 void WallView::point(glm::ivec2 pointInDesktop, std::uint16_t buttons) {

@@ -12,6 +12,7 @@
 #include "devices/display/gl_context.h"
 #include "viewer/plan/pointer_map.h"
 #include "viewer/plan/wall_plan.h"
+#include "viewer/programs/desk_texts.h"
 #include "viewer/programs/lost_picture.h"
 #include "viewer/programs/view_options.h"
 #include "viewer/programs/wall_reloader.h"
@@ -49,7 +50,7 @@ class WallView {
     bool cursorChanged = false;
     bool plansChanged = false;  // textures and sizes of all outputs are new
     bool bell = false;
-    std::optional<std::string> copied;  // text that was copied on the desktop
+    std::vector<Clipboard> copied;  // texts that others here may paste
   };
   /// Takes what has arrived and draws what it touched. Throws ViewError when the session has ended.
   Step step();
@@ -84,7 +85,9 @@ class WallView {
   void point(glm::ivec2 pointInDesktop, std::uint16_t buttons);
   void key(std::uint32_t keysym, bool down) { source_->sendKey(keysym, down); }
   /// Text was copied on this side. A desktop that comes (back) gets the last one, too. Any thread.
-  void copy(std::string text);
+  void copy(Selection selection, std::string text);
+  /// Says once for each side that a text was too long. Any thread.
+  void refuse(const ClipboardRefused& refused);
   void markAll() { renderer_.markAll(); }
 
  private:
@@ -104,6 +107,7 @@ class WallView {
   LostPicture picture_;
   FrameBelt belt_;
   std::function<void()> wake_;
+  bool local_ = false;   // straight from an X server
   bool direct_ = false;  // the X server behind the VNC server that was asked for
   std::unique_ptr<DesktopSource> source_;
   WallReloader reloader_;
@@ -113,9 +117,7 @@ class WallView {
   glm::ivec2 pointer_{0, 0};
   Clock::time_point fadeDue_;  // of the borders around damage
   Clock::time_point ringUntil_ = Clock::time_point::max();
-  std::mutex copiedMutex_;
-  std::string copiedHere_;  // under the mutex: unless something was copied on the desktop since
-  std::optional<std::string> copiedThere_;
+  DeskTexts texts_;
   bool bell_ = false;
   bool hasPicture_ = false;
   std::optional<Clock::time_point> lostSince_;

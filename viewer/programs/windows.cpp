@@ -6,9 +6,12 @@
 #include <atomic>
 #include <cstdlib>
 #include <glm/common.hpp>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "devices/display/clipboard.h"
 #include "devices/display/display_watch.h"
@@ -80,9 +83,8 @@ class WallWindows {
           monitorsChanged_ = true;
           loop_.wake();
         }) {
-    if (options_.clipboardLimit > 0) {
-      clipboard_.emplace(options_.clipboardLimit, [this](std::string text) { view_.copy(std::move(text)); });
-    }
+    openClipboard(Selection::kClipboard);
+    if (options_.primary) openClipboard(Selection::kPrimary);
     for (std::size_t i = 0; i < wall.projectors().size(); ++i) {
       if (configOf(wall, wall.projectors()[i]->name).output.kind == calib::OutputKind::kSim) simulated_.push_back(i);
     }
@@ -103,7 +105,9 @@ class WallWindows {
       present(step.drawn);
       presentRoom();
       view_.shown();
-      if (step.copied && clipboard_) clipboard_->set(*step.copied);
+      for (const auto& [text, selection] : step.copied) {
+        if (const auto here = clipboards_.find(selection); here != clipboards_.end()) here->second.set(text);
+      }
       if (step.bell) watch_.ringBell();
       if (screenshotDone()) break;
       wait(stats.due());
@@ -128,6 +132,16 @@ class WallWindows {
     if (options_.viewOnly || projectors_.empty()) return false;
     if (options_.pointer == PointerMode::kAuto) return !controlWindow_ && !projectors_.lieAsOnTheWall();
     return options_.pointer == PointerMode::kDesktop;
+  }
+
+  void openClipboard(Selection selection) {
+    if (options_.clipboardLimit == 0) return;
+    const auto here = selection == Selection::kPrimary ? devices::Selection::kPrimary : devices::Selection::kClipboard;
+    const devices::ClipboardHandlers handlers{
+        [this, selection](std::string text) { view_.copy(selection, std::move(text)); },
+        [this] { view_.refuse({.onDesktop = false, .limit = options_.clipboardLimit}); }};
+    clipboards_.emplace(std::piecewise_construct, std::forward_as_tuple(selection),
+                        std::forward_as_tuple(here, options_.clipboardLimit, handlers));
   }
 
   void openControl() {
@@ -233,7 +247,7 @@ class WallWindows {
   bool quit_ = false;
   std::atomic<bool> monitorsChanged_ = false;
   devices::DisplayWatch watch_;
-  std::optional<devices::Clipboard> clipboard_;
+  std::map<Selection, devices::Clipboard> clipboards_;
 };
 
 }  // namespace

@@ -84,6 +84,13 @@ ClipboardCaps parseClipboardCaps(std::uint32_t flags, std::span<const std::uint8
   return caps;
 }
 
+std::optional<std::size_t> parseProvidedSize(std::uint32_t flags, std::span<const std::uint8_t> bytes) {
+  if ((flags & kFormats & kClipboardText) == 0) return std::nullopt;
+  std::vector<std::uint8_t> head(4);
+  if (!Inflater(bytes).read(head)) return std::nullopt;
+  return bigEndian(head);
+}
+
 std::optional<std::string> parseProvidedText(std::uint32_t flags, std::span<const std::uint8_t> bytes,
                                              std::size_t limit) {
   if ((flags & kFormats & kClipboardText) == 0) return std::nullopt;

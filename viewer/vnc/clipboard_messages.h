@@ -35,7 +35,9 @@ struct ClipboardCaps {
 
 /// Of the bytes that follow the flags; what is missing counts as nothing.
 [[nodiscard]] ClipboardCaps parseClipboardCaps(std::uint32_t flags, std::span<const std::uint8_t> bytes);
-/// The same for a provided text: UTF-8 with plain line ends. None when the bytes are damaged, or the text is not there
+/// How many bytes a provided text has, unpacked; none when there is no text or the bytes are damaged.
+[[nodiscard]] std::optional<std::size_t> parseProvidedSize(std::uint32_t flags, std::span<const std::uint8_t> bytes);
+/// The text itself: UTF-8 with plain line ends. None when the bytes are damaged, or the text is not there
 /// or longer than `limit` bytes; never unpacks more than that.
 [[nodiscard]] std::optional<std::string> parseProvidedText(std::uint32_t flags, std::span<const std::uint8_t> bytes,
                                                            std::size_t limit);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "viewer/vnc/screen_layout.h"
@@ -31,8 +32,9 @@ class DesktopSource {
   virtual void sendPointer(int x, int y, std::uint16_t buttons) = 0;
   /// An X11 keysym.
   virtual void sendKey(std::uint32_t keysym, bool down) = 0;
-  /// UTF-8.
-  virtual void sendClipboard(std::string text) = 0;
+  /// UTF-8. Where there is one clipboard only, as with VNC, the last text is in it.
+  virtual void sendClipboard(std::string text, Selection selection) = 0;
+  void sendClipboard(std::string text) { sendClipboard(std::move(text), Selection::kClipboard); }
 
   /// Asks the connected desktop for a size and screens: a Resized or a ResizeRefused event follows, or nothing when it
   /// has them already. False when this kind of desktop cannot be asked.

@@ -9,8 +9,11 @@ void InputQueue::add(Input input) {
     addPointer(*pointer);
     return;
   }
-  if (std::holds_alternative<ClipboardInput>(input)) {
-    std::erase_if(waiting_, [](const Input& old) { return std::holds_alternative<ClipboardInput>(old); });
+  if (const auto* clipboard = std::get_if<ClipboardInput>(&input)) {
+    std::erase_if(waiting_, [&](const Input& old) {
+      const auto* other = std::get_if<ClipboardInput>(&old);
+      return other != nullptr && other->selection == clipboard->selection;
+    });
   }
   waiting_.push_back(std::move(input));
   lastIsMotion_ = false;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "viewer/vnc/screen_layout.h"
+#include "viewer/vnc/session_event.h"
 
 namespace pixelflex::viewer {
 
@@ -24,6 +25,7 @@ struct KeyInput {
 
 struct ClipboardInput {
   std::string text;  // UTF-8
+  Selection selection = Selection::kClipboard;
   bool operator==(const ClipboardInput&) const = default;
 };
 
@@ -35,8 +37,8 @@ struct LayoutInput {
 using Input = std::variant<PointerInput, KeyInput, ClipboardInput, LayoutInput>;
 
 /// Input on its way to the server, in order. A motion replaces a motion just before it, so that a slow link does
-/// not lag behind the hand; where a button goes down or up is never lost. Only the newest clipboard waits. Not
-/// thread-safe.
+/// not lag behind the hand; where a button goes down or up is never lost. Only the newest clipboard of a kind waits.
+/// Not thread-safe.
 class InputQueue {
  public:
   void add(Input input);

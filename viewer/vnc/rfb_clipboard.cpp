@@ -18,8 +18,15 @@ constexpr std::size_t kMaxPlainBytes = 256u << 10;  // what TigerVNC's server ac
 // Packing may make a text a little longer; flags and sizes of formats are small.
 constexpr std::size_t kOverhead = 4096;
 
+void leaveOut(RfbState& rfb) {
+  if (rfb.options.clipboardLimit > 0) appendEvent(rfb.events, ClipboardRefused{true, rfb.options.clipboardLimit});
+}
+
 void readPlain(RfbState& rfb, std::uint32_t length) {
-  if (length > rfb.options.clipboardLimit) return rfb.discard(length);
+  if (length > rfb.options.clipboardLimit) {
+    leaveOut(rfb);
+    return rfb.discard(length);
+  }
   std::string text(length, '\0');
   rfb.read({reinterpret_cast<std::uint8_t*>(text.data()), text.size()});
   if (!text.empty()) appendEvent(rfb.events, Clipboard{withPlainLineEnds(utf8FromLatin1(text))});
@@ -47,12 +54,14 @@ void act(RfbState& rfb, std::uint32_t flags, std::span<const std::uint8_t> bytes
   if ((flags & kClipboardPeek) != 0) notify(rfb);
   if ((flags & kClipboardNotify) != 0 && text) rfb.write(clipboardFlagsMessage(kClipboardRequest | kClipboardText));
   if ((flags & kClipboardProvide) == 0) return;
+  if (parseProvidedSize(flags, bytes).value_or(0) > rfb.options.clipboardLimit) return leaveOut(rfb);
   if (auto received = parseProvidedText(flags, bytes, rfb.options.clipboardLimit)) {
     appendEvent(rfb.events, Clipboard{*std::move(received)});
   }
 }
 
 void readExtended(RfbState& rfb, std::uint32_t length) {
+  if (length > rfb.options.clipboardLimit + kOverhead) leaveOut(rfb);
   if (length < 4 || length > rfb.options.clipboardLimit + kOverhead) return rfb.discard(length);
   std::vector<std::uint8_t> bytes(length);
   rfb.read(bytes);
@@ -87,7 +96,8 @@ void offerClipboard(RfbState& rfb, const std::string& text) {
     if (rfb.offeredText && text.size() < rfb.clipboardCaps->textBytes) return provide(rfb);
   }
   const std::string latin1 = latin1FromUtf8(withPlainLineEnds(text));
-  if (rfb.offeredText && latin1.size() <= kMaxPlainBytes) rfb.write(clipboardMessage(latin1));
+  if (latin1.size() > kMaxPlainBytes) return appendEvent(rfb.events, ClipboardRefused{false, kMaxPlainBytes});
+  if (rfb.offeredText) rfb.write(clipboardMessage(latin1));
 }
 
 }  // namespace pixelflex::viewer

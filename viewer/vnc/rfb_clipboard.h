@@ -7,7 +7,7 @@
 namespace pixelflex::viewer {
 
 /// Reads a ServerCutText, plain or extended, after its type. Texts beyond SessionOptions::clipboardLimit are read over
-/// and left out. Answers what the server asks. Throws SessionError.
+/// and left out, which an event tells. Answers what the server asks. Throws SessionError.
 void readClipboard(RfbState& rfb);
 
 /// Text was copied here, UTF-8: a server with the Extended Clipboard is told and fetches it when somebody pastes, any

@@ -177,8 +177,8 @@ void Session::sendKey(std::uint32_t keysym, bool down) {
   worker_->desk().add(KeyInput{keysym, down});
 }
 
-void Session::sendClipboard(std::string text) {
-  worker_->desk().add(ClipboardInput{std::move(text)});
+void Session::sendClipboard(std::string text, Selection selection) {
+  worker_->desk().add(ClipboardInput{std::move(text), selection});
 }
 
 bool Session::requestLayout(ScreenLayout layout) {

@@ -72,7 +72,7 @@ class Session : public DesktopSource {
   void sendKey(std::uint32_t keysym, bool down) override;
   /// To servers without the Extended Clipboard it goes as Latin-1: what that cannot hold becomes a question mark, and
   /// texts beyond 256 KiB stay here.
-  void sendClipboard(std::string text) override;
+  void sendClipboard(std::string text, Selection selection) override;
   [[nodiscard]] bool requestLayout(ScreenLayout layout) override;
   void stop() override;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -53,10 +54,23 @@ struct Bell {
   bool operator==(const Bell&) const = default;
 };
 
-/// Text was copied on the desktop.
+enum class Selection {
+  kClipboard,  // what is copied and pasted
+  kPrimary,    // what is marked with the mouse and pasted with its middle button, on X desktops
+};
+
+/// Text was copied on the desktop. VNC knows the clipboard only.
 struct Clipboard {
   std::string text;  // UTF-8
+  Selection selection = Selection::kClipboard;
   bool operator==(const Clipboard&) const = default;
+};
+
+/// A text stays where it was copied, as it is too long.
+struct ClipboardRefused {
+  bool onDesktop = false;  // that is where
+  std::size_t limit = 0;   // bytes
+  bool operator==(const ClipboardRefused&) const = default;
 };
 
 enum class CloseKind {
@@ -87,6 +101,6 @@ struct Closed {
 };
 
 using SessionEvent = std::variant<Connected, Resized, ResizeRefused, CursorShape, CursorMoved, LinkChanged, Bell,
-                                  Clipboard, Lost, Closed>;
+                                  Clipboard, ClipboardRefused, Lost, Closed>;
 
 }  // namespace pixelflex::viewer

@@ -1,6 +1,7 @@
 #include "viewer/x11/local_desktop.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace pixelflex::viewer {
@@ -10,12 +11,24 @@ constexpr std::chrono::microseconds kPeriod{16'000};
 
 }  // namespace
 
-LocalDesktop::LocalDesktop(const XConnection& connection, bool takesInput)
-    : connection_(connection), screen_(connection), cursor_(connection), xkb_(connection), told_(screen_.size()) {
-  if (!takesInput) return;
+LocalDesktop::LocalDesktop(const XConnection& connection, const LocalInput& input)
+    : connection_(connection),
+      screen_(connection),
+      cursor_(connection),
+      xkb_(connection),
+      clipboardLimit_(input.clipboardLimit),
+      told_(screen_.size()) {
+  if (!input.pointerAndKeys) return;
   keyboard_.emplace(connection);
   pointer_.emplace(connection);
-  clipboard_.emplace(connection);
+  if (clipboardLimit_ == 0) return;
+  addClipboard(Selection::kClipboard);
+  if (input.primary) addClipboard(Selection::kPrimary);
+}
+
+void LocalDesktop::addClipboard(Selection selection) {
+  clipboards_.emplace(std::piecewise_construct, std::forward_as_tuple(selection),
+                      std::forward_as_tuple(connection_, selection, clipboardLimit_));
 }
 
 LocalDesktop::~LocalDesktop() {
@@ -34,7 +47,7 @@ bool LocalDesktop::listen() {
     xkb_.handle(*event);
     if (keyboard_) keyboard_->handle(*event);
     if (keyboard_ && xkb_.takeLayoutChange()) keyboard_->forgetLayout();
-    if (clipboard_) clipboard_->handle(*event);
+    for (auto& [selection, clipboard] : clipboards_) clipboard.handle(*event);
   }
   return any;
 }
@@ -51,9 +64,14 @@ void LocalDesktop::take(const Input& input) {
     } else {
       keyboard_->release(key->keysym);
     }
-  } else {
-    clipboard_->offer(std::get<ClipboardInput>(input).text);
+  } else if (const auto* copied = std::get_if<ClipboardInput>(&input)) {
+    offer(*copied);
   }
+}
+
+void LocalDesktop::offer(const ClipboardInput& copied) {
+  const auto clipboard = clipboards_.find(copied.selection);
+  if (clipboard != clipboards_.end() && copied.text.size() <= clipboardLimit_) clipboard->second.offer(copied.text);
 }
 
 std::vector<SessionEvent> LocalDesktop::takeEvents() {
@@ -61,8 +79,9 @@ std::vector<SessionEvent> LocalDesktop::takeEvents() {
   if (std::exchange(told_, size()) != size()) events.emplace_back(Resized{size()});
   std::ranges::move(cursor_.takeEvents(), std::back_inserter(events));
   if (xkb_.takeRung()) events.emplace_back(Bell{});
-  if (clipboard_) {
-    if (auto text = clipboard_->takeText()) events.emplace_back(Clipboard{std::move(*text)});
+  for (auto& [selection, clipboard] : clipboards_) {
+    if (auto text = clipboard.takeText()) events.emplace_back(Clipboard{std::move(*text), selection});
+    if (clipboard.takeTooLong()) events.emplace_back(ClipboardRefused{true, clipboardLimit_});
   }
   return events;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -17,11 +19,18 @@
 
 namespace pixelflex::viewer {
 
+/// What goes to the server; all of it empty: it is only looked at.
+struct LocalInput {
+  bool pointerAndKeys = false;
+  std::size_t clipboardLimit = 0;  // bytes of the longest text, either way; 0: no clipboard
+  bool primary = false;            // the primary selection, too
+};
+
 /// The desktop of an X server on one connection: screen, pointer, keyboard, clipboard and bell. The session's thread.
 class LocalDesktop {
  public:
-  /// Without `takesInput` the server is only looked at. `connection` must outlive this.
-  LocalDesktop(const XConnection& connection, bool takesInput);
+  /// `connection` must outlive this.
+  LocalDesktop(const XConnection& connection, const LocalInput& input);
   /// Lets go of all keys and buttons.
   ~LocalDesktop();
   LocalDesktop(const LocalDesktop&) = delete;
@@ -42,13 +51,17 @@ class LocalDesktop {
   void publish(FrameBelt& belt, const std::stop_token& stop, std::uint64_t& serial);
 
  private:
+  void addClipboard(Selection selection);
+  void offer(const ClipboardInput& copied);
+
   const XConnection& connection_;
   ScreenCapture screen_;
   CursorWatch cursor_;
   XkbWatch xkb_;
   std::optional<XKeyboard> keyboard_;
   std::optional<XPointer> pointer_;
-  std::optional<XClipboard> clipboard_;
+  std::size_t clipboardLimit_;
+  std::map<Selection, XClipboard> clipboards_;
   devices::Size told_;
   std::chrono::steady_clock::time_point due_;
 };

@@ -63,7 +63,9 @@ class LocalSession::Worker {
   [[noreturn]] void talk(const std::stop_token& stop) {
     const XConnection connection(options_.display, desk_.stopped(), options_.patience);
     hold(connection.fd());
-    LocalDesktop desktop(connection, !options_.viewOnly);
+    LocalDesktop desktop(
+        connection,
+        {.pointerAndKeys = !options_.viewOnly, .clipboardLimit = options_.clipboardLimit, .primary = options_.primary});
     announce(desktop);
     while (true) {
       bool busy = desktop.listen();
@@ -140,8 +142,8 @@ void LocalSession::sendKey(std::uint32_t keysym, bool down) {
   worker_->desk().add(KeyInput{keysym, down});
 }
 
-void LocalSession::sendClipboard(std::string text) {
-  worker_->desk().add(ClipboardInput{std::move(text)});
+void LocalSession::sendClipboard(std::string text, Selection selection) {
+  worker_->desk().add(ClipboardInput{std::move(text), selection});
 }
 
 void LocalSession::stop() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -17,6 +18,10 @@ struct LocalSessionOptions {
   XDisplay display;
   /// Drops pointer, keys and clipboard before they reach the server, and leaves its clipboard unread.
   bool viewOnly = false;
+  /// The longest text that is taken from the desktop's clipboard or put there, in bytes. 0: no clipboard.
+  std::size_t clipboardLimit = std::size_t{1} << 20;
+  /// What is marked with the mouse goes both ways as well.
+  bool primary = true;
   /// A server that does not answer for so long counts as lost.
   std::chrono::milliseconds patience{9'000};
   Retry retry = Retry::kNever;
@@ -35,8 +40,7 @@ class LocalSession : public DesktopSource {
   [[nodiscard]] std::vector<SessionEvent> takeEvents() override;
   void sendPointer(int x, int y, std::uint16_t buttons) override;
   void sendKey(std::uint32_t keysym, bool down) override;
-  /// Texts beyond 16 MiB stay here.
-  void sendClipboard(std::string text) override;
+  void sendClipboard(std::string text, Selection selection) override;
   void stop() override;
 
  private:

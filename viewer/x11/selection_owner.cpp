@@ -23,9 +23,8 @@ void setProperty(xcb_connection_t* x, std::uint32_t window, std::uint32_t proper
 }  // namespace
 
 void SelectionOwner::offer(std::string text) {
-  if (text.size() > kMaxSelection) return;
   text_ = std::make_shared<const std::string>(std::move(text));
-  xcb_set_selection_owner(connection_.get(), window_, atoms_.clipboard, XCB_CURRENT_TIME);
+  xcb_set_selection_owner(connection_.get(), window_, atoms_.selection, XCB_CURRENT_TIME);
 }
 
 void SelectionOwner::handle(const XEvent& event) {
@@ -47,7 +46,7 @@ void SelectionOwner::answer(const Request& request) {
   told.response_type = XCB_SELECTION_NOTIFY;
   told.time = request.time;
   told.requestor = request.requestor;
-  told.selection = atoms_.clipboard;
+  told.selection = atoms_.selection;
   told.target = request.target;
   told.property = give(request) ? request.property : XCB_NONE;
   xcb_send_event(connection_.get(), 0, request.requestor, 0, reinterpret_cast<const char*>(&told));

@@ -16,10 +16,10 @@ std::uint32_t makeWindow(const XConnection& connection) {
 
 }  // namespace
 
-XClipboard::XClipboard(const XConnection& connection)
-    : atoms_(connection),
+XClipboard::XClipboard(const XConnection& connection, Selection selection, std::size_t limit)
+    : atoms_(connection, selection == Selection::kPrimary ? "PRIMARY" : "CLIPBOARD"),
       window_(makeWindow(connection)),
-      reader_(connection, atoms_, window_),
+      reader_(connection, atoms_, window_, limit),
       owner_(connection, atoms_, window_) {}
 
 void XClipboard::handle(const XEvent& event) {
