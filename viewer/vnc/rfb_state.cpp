@@ -34,14 +34,23 @@ char clientDataTag = 0;
 
 // Called through C, which no exception may cross. The bytes are ours to free.
 rfbBool onJpeg(rfbClient* client, const std::uint8_t* bytes, int count, int x, int y, int width, int height) noexcept {
-  const RfbState::Pixels jpeg(const_cast<std::uint8_t*>(bytes));
-  const auto& rfb = *static_cast<const RfbState*>(rfbClientGetClientData(client, &clientDataTag));
+  JpegWorkers::Picture picture;
+  picture.jpeg.reset(bytes);
+  picture.bytes = static_cast<std::size_t>(count);
+  auto& rfb = *static_cast<RfbState*>(rfbClientGetClientData(client, &clientDataTag));
   const std::size_t row = std::size_t{4} * static_cast<std::size_t>(rfb.pixelsSize.width);
   std::uint8_t* out =
       rfb.pixels.get() + static_cast<std::size_t>(y) * row + std::size_t{4} * static_cast<std::size_t>(x);
-  if (decodeJpegRect({jpeg.get(), static_cast<std::size_t>(count)}, {width, height}, out, row)) return TRUE;
-  rfbClientLog("a JPEG picture is damaged");
-  return FALSE;
+  if (std::int64_t{width} * height < JpegWorkers::kWorthwhilePixels) {
+    if (decodeJpegRect({bytes, picture.bytes}, {width, height}, out, row)) return TRUE;
+    rfbClientLog("a JPEG picture is damaged");
+    return FALSE;
+  }
+  picture.box = {x, y, x + width, y + height};
+  picture.out = out;
+  picture.rowBytes = row;
+  rfb.jpegWorkers.add(std::move(picture));
+  return TRUE;
 }
 
 }  // namespace
@@ -122,6 +131,10 @@ std::size_t RfbState::writeOnce(std::span<const std::uint8_t> bytes) const {
   }
 }
 
+void RfbState::finishPictures() {
+  if (!jpegWorkers.finish()) refuse("sent a damaged update: a JPEG picture is damaged");
+}
+
 void RfbState::requestUpdate(bool incremental) const {
   write(updateRequestMessage(incremental, pixelsSize));
 }
@@ -141,6 +154,7 @@ void RfbState::resize(devices::Size size) {
   }
   const bool first = pixels == nullptr;
   if (!first && size == pixelsSize) return;
+  finishPictures();
   // Pages that nothing was written to take no memory: calloc maps them on demand.
   Pixels fresh(static_cast<std::uint8_t*>(std::calloc(static_cast<std::size_t>(size.area()), 4)));
   if (fresh == nullptr) {

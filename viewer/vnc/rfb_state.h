@@ -12,6 +12,7 @@
 
 #include "viewer/tiles/region.h"
 #include "viewer/vnc/clipboard_messages.h"
+#include "viewer/vnc/jpeg_workers.h"
 #include "viewer/vnc/rfb_failure.h"
 #include "viewer/vnc/rfb_log.h"
 #include "viewer/vnc/session.h"
@@ -51,6 +52,9 @@ struct RfbState {
   /// Throws that the server did something that makes no sense: "sent …".
   [[noreturn]] void refuse(const std::string& what) const;
 
+  /// Until everything that was sent is in the frame buffer; refuses damaged pictures.
+  void finishPictures();
+
   /// Of the whole desktop: what has changed, or everything.
   void requestUpdate(bool incremental) const;
   /// From here on the server sends updates of the whole desktop without being asked.
@@ -72,6 +76,7 @@ struct RfbState {
   _rfbClient* client = nullptr;
   Pixels pixels;
   devices::Size pixelsSize;
+  JpegWorkers jpegWorkers;                                // after what they write to
   std::optional<std::array<std::uint8_t, 3>> firstPixel;  // as of the last update of this frame buffer
   Region damage;
   bool insideUpdate = false;

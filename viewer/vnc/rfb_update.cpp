@@ -34,6 +34,10 @@ Rectangle readRectangle(RfbState& rfb) {
   return rect;
 }
 
+Box boxAt(int x, int y, devices::Size size) {
+  return {x, y, x + size.width, y + size.height};
+}
+
 void requireInside(const RfbState& rfb, const Rectangle& rect, int x, int y, const char* what) {
   const bool inside = x + rect.size.width <= rfb.pixelsSize.width && y + rect.size.height <= rfb.pixelsSize.height;
   if (inside) return;
@@ -58,6 +62,7 @@ void copyRect(RfbState& rfb, const Rectangle& rect) {
   const auto fromX = static_cast<int>(bigEndian(std::span(source).first(2)));
   const auto fromY = static_cast<int>(bigEndian(std::span(source).last(2)));
   requireInside(rfb, rect, fromX, fromY, "that copies from");
+  rfb.jpegWorkers.waitFor(boxAt(fromX, fromY, rect.size));
   const std::size_t row = std::size_t{4} * static_cast<std::size_t>(rect.size.width);
   for (int i = 0; i < rect.size.height; ++i) {
     // Where both overlap, what is copied from must not have been written to yet.
@@ -77,6 +82,7 @@ void decode(RfbState& rfb, const Rectangle& rect) {
 
 void readPixels(RfbState& rfb, const Rectangle& rect) {
   requireInside(rfb, rect, rect.x, rect.y, "that lies");
+  rfb.jpegWorkers.waitFor(boxAt(rect.x, rect.y, rect.size));
   if (rect.encoding == kRawEncoding) {
     readRaw(rfb, rect);
   } else if (rect.encoding == kCopyRectEncoding) {
@@ -84,7 +90,7 @@ void readPixels(RfbState& rfb, const Rectangle& rect) {
   } else {
     decode(rfb, rect);
   }
-  rfb.damage.add({rect.x, rect.y, rect.x + rect.size.width, rect.y + rect.size.height});
+  rfb.damage.add(boxAt(rect.x, rect.y, rect.size));
 }
 
 void resize(RfbState& rfb, devices::Size size) {
@@ -147,6 +153,7 @@ void readUpdate(RfbState& rfb) {
   if (!rfb.continuousUpdates) rfb.requestUpdate(true);
   std::uint32_t left = bigEndian(std::span(head).last(2));
   while (left > 0 && readAny(rfb, readRectangle(rfb))) --left;
+  rfb.finishPictures();
   rfb.insideUpdate = false;
   rfb.updateFinished = true;
   noteUpdateForResize(rfb);
