@@ -19,7 +19,7 @@ namespace pixelflex::devices {
 
 struct DisplayWatch::State {
   explicit State(std::function<void()> onMonitorsChanged)
-      : onChange(std::move(onMonitorsChanged)), x(xcb_connect(nullptr, nullptr)) {
+      : onChange(std::move(onMonitorsChanged)), x(xcb_connect(nullptr, &screen)) {
     if (xcb_connection_has_error(x) != 0) {
       xcb_disconnect(x);
       throw DisplayError("cannot watch the display's monitors: the X server does not answer");
@@ -52,7 +52,9 @@ struct DisplayWatch::State {
     if (!has(xcb_randr_id)) return;
     firstMonitorEvent = xcb_get_extension_data(x, &xcb_randr_id)->first_event;
     std::free(xcb_randr_query_version_reply(x, xcb_randr_query_version(x, 1, 5), nullptr));
-    const xcb_window_t root = xcb_setup_roots_iterator(xcb_get_setup(x)).data->root;
+    auto roots = xcb_setup_roots_iterator(xcb_get_setup(x));
+    for (int i = 0; i < screen && roots.rem > 1; ++i) xcb_screen_next(&roots);
+    const xcb_window_t root = roots.data->root;
     xcb_randr_select_input(
         x, root,
         XCB_RANDR_NOTIFY_MASK_SCREEN_CHANGE | XCB_RANDR_NOTIFY_MASK_CRTC_CHANGE | XCB_RANDR_NOTIFY_MASK_OUTPUT_CHANGE);
@@ -77,6 +79,7 @@ struct DisplayWatch::State {
   }
 
   std::function<void()> onChange;
+  int screen = 0;  // of the display, as its name says
   xcb_connection_t* x;
   int firstMonitorEvent = 1000;  // beyond every event
   int stop = -1;

@@ -24,6 +24,12 @@ struct Disconnect {
   void operator()(xcb_connection_t* x) const { xcb_disconnect(x); }
 };
 
+xcb_window_t rootOf(xcb_connection_t* x, int screen) {
+  auto roots = xcb_setup_roots_iterator(xcb_get_setup(x));
+  for (; screen > 0 && roots.rem > 1; --screen) xcb_screen_next(&roots);
+  return roots.data->root;
+}
+
 std::string nameOf(xcb_connection_t* x, xcb_atom_t atom) {
   const auto reply = owned(xcb_get_atom_name_reply(x, xcb_get_atom_name(x, atom), nullptr));
   if (reply == nullptr) return {};
@@ -34,10 +40,11 @@ std::string nameOf(xcb_connection_t* x, xcb_atom_t atom) {
 }  // namespace
 
 std::vector<Monitor> listMonitors(const EventLoop& /*loop*/) {
-  const std::unique_ptr<xcb_connection_t, Disconnect> x(xcb_connect(nullptr, nullptr));
+  int screen = 0;
+  const std::unique_ptr<xcb_connection_t, Disconnect> x(xcb_connect(nullptr, &screen));
   if (xcb_connection_has_error(x.get()) != 0) throw DisplayError("cannot list monitors: the X server does not answer");
   std::free(xcb_randr_query_version_reply(x.get(), xcb_randr_query_version(x.get(), 1, 5), nullptr));
-  const xcb_window_t root = xcb_setup_roots_iterator(xcb_get_setup(x.get())).data->root;
+  const xcb_window_t root = rootOf(x.get(), screen);
   const auto reply = owned(xcb_randr_get_monitors_reply(x.get(), xcb_randr_get_monitors(x.get(), root, 1), nullptr));
   std::vector<Monitor> monitors;
   if (reply == nullptr) return monitors;

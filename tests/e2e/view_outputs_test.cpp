@@ -1,4 +1,6 @@
-// Monitors that go and come back.
+// Monitors that go and come back, and several X displays.
+#include <csignal>
+
 #include "tests/e2e/view_screens.h"
 
 namespace pixelflex::testing {
@@ -11,6 +13,11 @@ class OutputsTest : public ScreensTest {
     for (auto& projector : flat.projectors) {
       projector.output = {.kind = calib::OutputKind::kMonitor, .monitor = "m-" + projector.name};
     }
+    calib::saveWall(wall(), flat);
+  }
+  void onDisplay(std::size_t projector, const std::string& display) {
+    calib::Wall flat = calib::loadWall(wall());
+    flat.projectors[projector].output.display = display;
     calib::saveWall(wall(), flat);
   }
   void plugIn(const std::string& name, int x) {
@@ -45,6 +52,47 @@ TEST_F(OutputsTest, AMonitorThatGoesComesBackAndTheOtherGoesOn) {
   plugIn("m-p1", 400);
   EXPECT_TRUE(comesTrue([&] { return shows({410, 110}, {0x60, 0x40, 0x20}); })) << "where it is now\n" << log();
   EXPECT_TRUE(viewer_->running());
+}
+
+TEST_F(OutputsTest, ProjectorsOfSeveralXServersShowOneDesktopTogether) {
+  std::optional<XServer> second(std::in_place, [](const TemporaryFolder&) {
+    return std::vector<std::string>{"Xvfb", "-screen", "0", "800x600x24", "-nolisten", "tcp", "-noreset"};
+  });
+  makeWall({{100, 90}, {200, 50}});
+  onDisplay(1, second->display());
+  startViewer();
+  paintDesktop("#204060");
+  ASSERT_TRUE(comesTrue([&] { return shows({110, 100}, {0x20, 0x40, 0x60}); })) << log();
+  ASSERT_TRUE(comesTrue([&] { return showsOn(second->display(), {210, 60}, {0x20, 0x40, 0x60}); })) << log();
+  second->query({"xdotool", "mousemove", "250", "80"});
+  EXPECT_TRUE(comesTrue([&] { return pointer() == glm::ivec2(350, 30); })) << log();
+  const std::string display = second->display();
+  second.reset();
+  EXPECT_TRUE(comesTrue([&] { return logHolds("display " + display + " is dark, the others go on"); })) << log();
+  paintDesktop("#604020");
+  EXPECT_TRUE(comesTrue([&] { return shows({110, 100}, {0x60, 0x40, 0x20}); })) << log();
+  viewer_->signal(SIGTERM);
+  EXPECT_TRUE(viewer_->wait(std::chrono::seconds(20)).has_value());
+}
+
+TEST_F(OutputsTest, ProjectorsOfTwoScreensOfAnXServerEndTogether) {
+  XServer screens([](const TemporaryFolder&) {
+    return std::vector<std::string>{"Xvfb", "-screen",    "0",         "800x600x24", "-screen",
+                                    "1",    "800x600x24", "-nolisten", "tcp",        "-noreset"};
+  });
+  makeWall({{100, 90}, {200, 50}});
+  onDisplay(0, screens.display());
+  onDisplay(1, screens.display() + ".1");
+  startViewer();
+  paintDesktop("#204060");
+  ASSERT_TRUE(comesTrue([&] { return showsOn(screens.display(), {110, 100}, {0x20, 0x40, 0x60}); })) << log();
+  ASSERT_TRUE(comesTrue([&] { return showsOn(screens.display() + ".1", {210, 60}, {0x20, 0x40, 0x60}); })) << log();
+  screens.query({"xdotool", "mousemove", "150", "150"});
+  ASSERT_TRUE(comesTrue([&] {
+    screens.query({"xdotool", "key", "ctrl+alt+q"});
+    return !viewer_->running();
+  })) << log();
+  EXPECT_EQ(viewer_->wait(std::chrono::seconds(1)), 0) << log();
 }
 
 TEST_F(OutputsTest, SaysWhichMonitorsThereAreWhenNoneIsTheWalls) {

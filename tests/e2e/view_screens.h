@@ -60,8 +60,11 @@ class ScreensTest : public ::testing::Test {
         command, ProcessOptions{.environment = {"DISPLAY=" + screen_.display()}, .log = folder_ / "log"});
   }
   /// The desktop's picture is on the X screen there.
-  [[nodiscard]] bool shows(glm::ivec2 place, std::vector<int> colour) const {
-    const devices::Image8 picture = grabRoot(screen_.display());
+  [[nodiscard]] bool shows(glm::ivec2 place, const std::vector<int>& colour) const {
+    return showsOn(screen_.display(), place, colour);
+  }
+  [[nodiscard]] static bool showsOn(const std::string& display, glm::ivec2 place, const std::vector<int>& colour) {
+    const devices::Image8 picture = grabRoot(display);
     return picture.at(place.x, place.y, 0) == colour[0] && picture.at(place.x, place.y, 1) == colour[1] &&
            picture.at(place.x, place.y, 2) == colour[2];
   }

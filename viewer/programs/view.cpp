@@ -10,6 +10,7 @@
 #include <string>
 
 #include "calib/store/store.h"
+#include "viewer/programs/display_viewers.h"
 #include "viewer/programs/headless.h"
 #include "viewer/programs/password.h"
 #include "viewer/programs/view_options.h"
@@ -39,7 +40,9 @@ const std::map<std::string, Source> kSources{{"vnc", Source::kVnc}, {"auto", Sou
 int view(const ViewOptions& options) {
   const WallPlan wall(options.wall, calib::loadWall(options.wall), calib::loadCalibration(options.wall),
                       options.projectors, options.fit);
-  return options.headless ? runHeadless(options, wall) : runWindows(options, wall);
+  if (options.headless) return runHeadless(options, wall);
+  const auto shares = sharesOfDisplays(wall);
+  return shares.empty() ? runWindows(options, wall) : runViewers(options, shares, view);
 }
 
 // Asks for the password only when a server wants one that was not given.

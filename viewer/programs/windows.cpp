@@ -31,19 +31,13 @@
 namespace pixelflex::viewer {
 namespace {
 
-/// All windows of a process are on one display: the one that the outputs name, else $DISPLAY.
+/// All windows of a process are on one display: the one that its outputs name, else $DISPLAY.
 std::optional<std::string> chooseDisplay(const WallPlan& wall) {
-  std::optional<std::string> chosen;
   for (const auto* projector : wall.projectors()) {
     const auto& output = configOf(wall, projector->name).output;
-    if (output.kind != calib::OutputKind::kDisplay) continue;
-    if (chosen && chosen != output.display) {
-      throw ViewError("the projectors are on displays " + *chosen + " and " + output.display +
-                      ": start one viewer for each, with --projectors");
-    }
-    chosen = output.display;
+    if (output.kind == calib::OutputKind::kDisplay) return output.display;
   }
-  return chosen;
+  return std::nullopt;
 }
 
 /// A desktop that shows itself would never come to rest.
