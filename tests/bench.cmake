@@ -17,12 +17,20 @@ foreach(name day_bench reconnect_bench)
   target_compile_definitions(${name} PRIVATE PIXELFLEX_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
   add_dependencies(${name} pixelflex-new pixelflex-view)
 endforeach()
-set_target_properties(calibrate_bench geometry_bench day_bench reconnect_bench
+add_executable(scene_client bench/scene_client.cpp)
+target_link_libraries(scene_client PRIVATE pixelflex_options pixelflex_image PkgConfig::X11)
+add_executable(decode_bench bench/decode_bench.cpp bench/replay_server.cpp bench/replay_server.h
+  bench/rfb_recording.cpp bench/rfb_recording.h bench/unix_socket.cpp bench/unix_socket.h)
+target_link_libraries(decode_bench PRIVATE pixelflex_options pixelflex_test_support CLI11::CLI11 fmt::fmt)
+target_compile_definitions(decode_bench PRIVATE PIXELFLEX_SCENE_CLIENT="${CMAKE_BINARY_DIR}/tests/scene_client")
+add_dependencies(decode_bench scene_client)
+set_target_properties(calibrate_bench geometry_bench day_bench decode_bench reconnect_bench scene_client
   PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
 
 add_test(NAME calibrate_bench COMMAND calibrate_bench --tiny)
 add_test(NAME geometry_bench COMMAND geometry_bench "--benchmark_filter=/(768|2)/" --benchmark_min_time=0.001
   --benchmark_format=json)
 add_test(NAME day_bench COMMAND day_bench --updates 4000 --resize-every 200 --most-growth 5)
+add_test(NAME decode_bench COMMAND decode_bench --width 800 --height 600 --record 0.5 --passes 1)
 add_test(NAME reconnect_bench COMMAND reconnect_bench --returns 2)
-set_tests_properties(calibrate_bench geometry_bench day_bench reconnect_bench PROPERTIES LABELS bench TIMEOUT 180)
+set_tests_properties(calibrate_bench geometry_bench day_bench decode_bench reconnect_bench PROPERTIES LABELS bench TIMEOUT 180)
