@@ -24,7 +24,11 @@ add_executable(decode_bench bench/decode_bench.cpp bench/replay_server.cpp bench
 target_link_libraries(decode_bench PRIVATE pixelflex_options pixelflex_test_support CLI11::CLI11 fmt::fmt)
 target_compile_definitions(decode_bench PRIVATE PIXELFLEX_SCENE_CLIENT="${CMAKE_BINARY_DIR}/tests/scene_client")
 add_dependencies(decode_bench scene_client)
-set_target_properties(calibrate_bench geometry_bench day_bench decode_bench reconnect_bench scene_client
+add_executable(redraw_bench bench/redraw_bench.cpp)
+target_link_libraries(redraw_bench PRIVATE pixelflex_options pixelflex_renderer pixelflex_reference CLI11::CLI11
+  fmt::fmt opencv_core opencv_imgproc PkgConfig::EPOXY)
+target_include_directories(redraw_bench SYSTEM PRIVATE ${OpenCV_INCLUDE_DIRS})
+set_target_properties(calibrate_bench geometry_bench day_bench decode_bench reconnect_bench redraw_bench scene_client
   PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
 
 add_test(NAME calibrate_bench COMMAND calibrate_bench --tiny)
@@ -32,5 +36,6 @@ add_test(NAME geometry_bench COMMAND geometry_bench "--benchmark_filter=/(768|2)
   --benchmark_format=json)
 add_test(NAME day_bench COMMAND day_bench --updates 4000 --resize-every 200 --most-growth 5)
 add_test(NAME decode_bench COMMAND decode_bench --width 800 --height 600 --record 0.5 --passes 1)
+add_test(NAME redraw_bench COMMAND redraw_bench --rounds 1 --tiny)
 add_test(NAME reconnect_bench COMMAND reconnect_bench --returns 2)
-set_tests_properties(calibrate_bench geometry_bench day_bench decode_bench reconnect_bench PROPERTIES LABELS bench TIMEOUT 180)
+set_tests_properties(calibrate_bench geometry_bench day_bench decode_bench redraw_bench reconnect_bench PROPERTIES LABELS bench TIMEOUT 180)
