@@ -99,8 +99,8 @@ struct FitQuality {
 inline constexpr double kLargestBlackLift = 0.0625;
 
 /// What makes the projectors' light alike. Linear light x of the desktop (1 is white) becomes
-/// alpha * gain * (colour x) + largestBlack * black in this projector's own linear light, per channel, before its inverse
-/// response.
+/// alpha * gain * (colour x) + largestBlack * black in this projector's own linear light, per channel, before its
+/// inverse response.
 struct LightMatch {
   std::array<double, 9> colour{1, 0, 0, 0, 1, 0, 0, 0, 1};  // row major
   std::optional<std::string>

@@ -54,7 +54,7 @@ struct OutputPlan {
   devices::Image16 gain;   // one channel of any size, a picture stretched over the frame and linear between the centres
                            // of its pixels, 65535 = 1; empty: 1 everywhere
   devices::Image16 black;  // one channel of `resolution`, 65535 = 1; empty: 0
-  glm::vec3 largestBlack{1};  // light
+  glm::vec3 largestBlack{1};                          // light
   std::array<std::vector<float>, 3> inverseResponse;  // per channel: device code 0..1 for light^(1/2.2), evenly spaced;
                                                       // empty: sRGB
   DesktopTransfer transfer = DesktopTransfer::kSrgb;
