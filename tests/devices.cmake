@@ -1,7 +1,8 @@
 # Lines to devices, drivers and the simulators of devices.
 pixelflex_library(pixelflex_device_support
-  HEADERS support_devices/scripted_server.h
-  SOURCES support_devices/scripted_server.cpp
+  HEADERS support_devices/bridges.h support_devices/scripted_server.h
+  SOURCES support_devices/bridges.cpp support_devices/scripted_server.cpp
+  PUBLIC pixelflex_test_support
   PRIVATE Threads::Threads)
 
 pixelflex_test(transport_test LABEL unit
@@ -15,3 +16,13 @@ pixelflex_test(pan_tilt_test LABEL unit
 pixelflex_test(projector_control_test LABEL unit
   SOURCES unit/projector_drivers_test.cpp unit/projector_faults_test.cpp unit/projector_vectors_test.cpp support_devices/projector_bench.h
   LINK pixelflex_device_host pixelflex_projector_control)
+
+# Through programs of others, and as users type it.
+pixelflex_test(device_ladder_test LABEL e2e
+  SOURCES e2e/device_ladder_test.cpp
+  LINK pixelflex_device_support pixelflex_device_host pixelflex_projector_control)
+
+pixelflex_test(device_cli_test LABEL e2e
+  SOURCES e2e/device_cli_test.cpp
+  LINK pixelflex_device_support pixelflex_device_host pixelflex_store)
+add_dependencies(device_cli_test pixelflex-device pixelflex-simulate pixelflex-check)

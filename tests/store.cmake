@@ -2,7 +2,7 @@ add_library(store_entry STATIC fuzz/store_entry.cpp)
 target_link_libraries(store_entry PRIVATE pixelflex_options PUBLIC pixelflex_store)
 
 pixelflex_test(store_test LABEL unit TIMEOUT 240
-  SOURCES unit/store_wall_test.cpp unit/store_calibration_test.cpp unit/store_yaml_test.cpp unit/store_save_test.cpp
+  SOURCES unit/store_devices_test.cpp unit/store_wall_test.cpp unit/store_calibration_test.cpp unit/store_yaml_test.cpp unit/store_save_test.cpp
     unit/store_check_test.cpp unit/store_mutation_test.cpp support/temporary_folder.cpp
   LINK pixelflex_store pixelflex_image store_entry)
 

@@ -42,8 +42,12 @@ constexpr std::array kRemarks = {
            "# {display: \":0\", at: [1024, 0]} by display and position, sim, or none.\n"
            "# Optional: `gamma: readings/p1.csv`, 256 rows value,red,green,blue in any linear unit of light, or\n"
            "# `gamma: camera`, which measures them with the camera at several exposures; without it sRGB is assumed;\n"
-           "# `control: {driver: pjlink, at: \"tcp://10.0.0.5:4352\"}`; `mirror: {driver: ptu, at: "
-           "\"tcp://10.0.0.9:2101\"}`.\n"},
+           "# `control: {driver: pjlink, at: \"tcp://10.0.0.5:4352\"}` (hitachi-legacy, proxima-dp6850, hitachi-beef, "
+           "pjlink,\n"
+           "# escvp21, infocus; at tcp://, rfc2217:// or serial:/dev/ttyUSB0?baud=9600); `password_file: FILE` inside "
+           "where "
+           "one is asked;\n"
+           "# `mirror: {driver: ptu, at: \"tcp://10.0.0.9:2101\"}`, a pan-tilt unit.\n"},
     Remark{"    flat:",
            "    # The screen's top-left pixel shows this desktop pixel, one to one; no camera is needed.\n"},
     Remark{"blend:",

@@ -1,4 +1,5 @@
-// pixelflex simulate WALL: composes projector frames into what the audience of a simulated wall sees.
+// pixelflex simulate WALL: composes projector frames into what the audience of a simulated wall sees; or serves the
+// wall's devices, simulated, where real ones would be.
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/programs/serve_devices.h"
 #include "calib/simulate/hand_aimed.h"
 #include "calib/simulate/simulated_wall.h"
 #include "calib/store/store.h"
@@ -38,6 +40,9 @@ struct Request {
   fs::path audience;
   std::string size;
   double margin = 6;  // per cent of the display rectangle's larger side
+  bool serves = false;
+  std::vector<std::string> faults;
+  double faster = 1;
 };
 
 std::optional<Size> sizeOf(const std::string& text) {
@@ -144,11 +149,24 @@ void simulate(const Request& request) {
 
 void defineOptions(CLI::App& app, Request& request) {
   app.add_option("WALL", request.wall, "The wall's folder; its wall.yaml names a rig")->required();
-  auto* from = app.add_option_group("what the projectors show");
-  from->add_option("--frames", request.frames, "Folder of frames, NAME.png for each projector");
-  from->add_option("--uncalibrated", request.uncalibrated, "Picture of the desktop, shown as if never calibrated");
+  auto* from = app.add_option_group("what is simulated");
+  auto* frames = from->add_option("--frames", request.frames, "Folder of frames, NAME.png for each projector");
+  auto* desktop =
+      from->add_option("--uncalibrated", request.uncalibrated, "Picture of the desktop, shown as if never calibrated");
+  auto* serves =
+      from->add_flag("--serve", request.serves,
+                     "Opens simulated devices where wall.yaml says that controls and mirrors are, until Ctrl+C");
   from->require_option(1);
-  app.add_option("--audience", request.audience, "The PNG to write")->required();
+  auto* audience = app.add_option("--audience", request.audience, "The PNG to write");
+  frames->needs(audience);
+  desktop->needs(audience);
+  audience->excludes(serves);
+  app.add_option("--fault", request.faults,
+                 "NAME.mirror=FAULT or NAME.control=FAULT: drop, garble, slow, silent, stuck, busy, cut")
+      ->needs(serves);
+  app.add_option("--faster", request.faster, "Mirrors turn so many times faster than real ones")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->needs(serves);
   const auto checkSize = [](const std::string& text) {
     return sizeOf(text) ? std::string() : "expected WIDTHxHEIGHT, 16 to " + std::to_string(kLargestPicture) + " each";
   };
@@ -163,7 +181,9 @@ void defineOptions(CLI::App& app, Request& request) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  CLI::App app("Composes projector frames into what the audience of a simulated wall sees.", "pixelflex simulate");
+  CLI::App app(
+      "Composes projector frames into what the audience of a simulated wall sees, or serves its devices, simulated.",
+      "pixelflex simulate");
   Request request;
   defineOptions(app, request);
   try {
@@ -174,7 +194,12 @@ int main(int argc, char** argv) try {
     std::cerr << "pixelflex-simulate: " << error.what() << "; see pixelflex simulate --help\n";
     return kWrongUsage;
   }
-  simulate(request);
+  if (request.serves) {
+    pixelflex::calib::serveDevices({request.wall, request.faults, request.faster},
+                                   [](const std::string& line) { std::cout << line << std::endl; });
+  } else {
+    simulate(request);
+  }
   return 0;
 } catch (const std::exception& error) {
   std::cerr << "pixelflex-simulate: " << error.what() << '\n';

@@ -8,6 +8,8 @@
 #include "calib/store/yaml_reader.h"
 #include "devices/image/image_error.h"
 #include "devices/image/png_file.h"
+#include "devices/projector_control/device_factory.h"
+#include "devices/transport/line_address.h"
 
 namespace pixelflex::calib {
 namespace {
@@ -52,6 +54,24 @@ class Checker {
     });
   }
 
+  /// A device's driver and address, and its password's file.
+  void checkDeviceAt(const Node& node, bool mirror) {
+    if (!node.defined()) return;
+    const Node driver = node.optional("driver");
+    const auto known = devices::deviceDrivers();
+    const bool exists = std::ranges::find(known, driver.text()) != known.end();
+    if (!exists || devices::isPanTiltDriver(driver.text()) != mirror) {
+      driver.problem(mirror ? "a mirror's driver is ptu"
+                            : "there is no such driver of projectors: " + projectors(known));
+    }
+    try {
+      (void)devices::parseLineAddress(node.optional("at").text());
+    } catch (const std::invalid_argument& error) {
+      node.optional("at").problem(error.what());
+    }
+    if (const Node file = node.optional("password_file"); file.defined()) (void)this->exists(file);
+  }
+
   bool exists(const Node& node) {
     if (!node.isScalar()) return false;
     if (std::filesystem::is_regular_file(folder_ / node.text())) return true;
@@ -62,6 +82,14 @@ class Checker {
   static std::string text(devices::Size size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
 
  private:
+  static std::string projectors(const std::vector<std::string>& drivers) {
+    std::string list;
+    for (const auto& name : drivers) {
+      if (!devices::isPanTiltDriver(name)) list += (list.empty() ? "" : ", ") + name;
+    }
+    return list;
+  }
+
   void addFile(const std::filesystem::path& path, const std::string& message) {
     problems_.push_back({path.string(), 0, 0, message});
   }
@@ -83,6 +111,8 @@ void checkWallFiles(const std::filesystem::path& folder, const Wall& wall, Probl
   const Node list = reader.root().optional("projectors");
   for (std::size_t i = 0; i < wall.projectors.size(); ++i) {
     const Node gamma = list.at(i).optional("gamma");
+    checker.checkDeviceAt(list.at(i).optional("control"), false);
+    checker.checkDeviceAt(list.at(i).optional("mirror"), true);
     if (!wall.projectors[i].gammaByCamera) checker.checkReadingsAt(gamma);
     if (wall.projectors[i].gammaByCamera && wall.camera.source == "none") {
       gamma.problem("gamma: camera needs a camera, and there is none (source: none)");

@@ -60,7 +60,8 @@ struct Output {
 /// A controllable device's line.
 struct DeviceLine {
   std::string driver;
-  std::string at;  // address, e.g. tcp://10.0.0.5:4352
+  std::string at;                           // address, e.g. tcp://10.0.0.5:4352
+  std::optional<std::string> passwordFile;  // its first line is the password; relative to the wall's folder
   bool operator==(const DeviceLine&) const = default;
 };
 

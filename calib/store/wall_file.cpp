@@ -122,7 +122,8 @@ Output readOutput(const Node& node) {
 
 std::optional<DeviceLine> readDevice(const Node& node) {
   if (!node.defined()) return std::nullopt;
-  DeviceLine line{readText(node.required("driver"), kMaxName), readText(node.required("at"), kMaxPath)};
+  DeviceLine line{readText(node.required("driver"), kMaxName), readText(node.required("at"), kMaxPath), {}};
+  if (const Node file = node.optional("password_file"); file.defined()) line.passwordFile = readText(file, kMaxPath);
   node.refuseUnknownKeys();
   return line;
 }

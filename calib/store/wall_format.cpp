@@ -50,7 +50,8 @@ std::string outputText(const Output& output) {
 
 std::string deviceText(std::string_view key, const std::optional<DeviceLine>& line) {
   if (!line) return "";
-  return fmt::format("    {}: {{driver: {}, at: {}}}\n", key, yamlText(line->driver), yamlText(line->at));
+  const std::string password = line->passwordFile ? ", password_file: " + yamlText(*line->passwordFile) : "";
+  return fmt::format("    {}: {{driver: {}, at: {}{}}}\n", key, yamlText(line->driver), yamlText(line->at), password);
 }
 
 std::string projectorText(const ProjectorConfig& projector) {

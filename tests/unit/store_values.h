@@ -53,8 +53,8 @@ inline calib::Wall exampleWall() {
   p1.output.kind = calib::OutputKind::kMonitor;
   p1.output.monitor = "HDMI-1";
   p1.gamma = "readings/p1.csv";
-  p1.control = calib::DeviceLine{"pjlink", "tcp://10.0.0.5:4352"};
-  p1.mirror = calib::DeviceLine{"ptu", "tcp://10.0.0.9:2101"};
+  p1.control = calib::DeviceLine{"pjlink", "tcp://10.0.0.5:4352", {}};
+  p1.mirror = calib::DeviceLine{"ptu", "tcp://10.0.0.9:2101", {}};
   wall.projectors = {p1};
   return wall;
 }

@@ -1,0 +1,80 @@
+#include "calib/programs/serve_devices.h"
+
+#include <csignal>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "calib/store/store.h"
+#include "calib/store/wall_devices.h"
+#include "devices/serve/device_host.h"
+#include "devices/simulate/pan_tilt_simulator.h"
+#include "devices/simulate/projector_simulator.h"
+#include "devices/simulate/simulators.h"
+#include "devices/transport/line_address.h"
+
+namespace pixelflex::calib {
+namespace {
+
+using devices::LineKind;
+
+std::unique_ptr<devices::SimulatedDevice> simulatorOf(const WallDevice& device, double faster) {
+  if (device.isMirror) {
+    return std::make_unique<devices::PanTiltSimulator>(devices::PanTiltSimulator::Options{.speedFactor = faster});
+  }
+  const std::string password = passwordOf(device);
+  if (device.line.driver == "pjlink") return devices::makePjlinkSimulator({.password = password});
+  return devices::makeSimulator(device.line.driver);
+}
+
+devices::LineAddress placeOf(const WallDevice& device) {
+  const auto address = devices::parseLineAddress(device.line.at);
+  const bool ours = address.host == "127.0.0.1" || address.host == "::1" || address.host == "localhost";
+  if (address.kind == LineKind::kSerial || (address.kind == LineKind::kTcp && ours)) return address;
+  throw std::runtime_error(
+      device.name + ": " + device.line.at +
+      " is no place of this machine: for a simulated one write tcp://127.0.0.1:PORT or serial:FILE");
+}
+
+void orderFault(devices::DeviceHost& host, const std::string& text) {
+  const auto equals = text.find('=');
+  const auto fault = equals == std::string::npos ? std::nullopt : devices::faultOfName(text.substr(equals + 1));
+  if (!fault) {
+    throw std::runtime_error("--fault " + text +
+                             ": write NAME.mirror=FAULT or NAME.control=FAULT, FAULT being drop, garble, slow, silent, "
+                             "stuck, busy or cut");
+  }
+  host.order(text.substr(0, equals), *fault);
+}
+
+}  // namespace
+
+void serveDevices(const ServeRequest& request, const std::function<void(const std::string& line)>& say) {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int number : {SIGINT, SIGTERM}) sigaddset(&signals, number);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  devices::DeviceHost host;
+  int served = 0;
+  for (const auto& device : devicesOf(loadWall(request.wall), request.wall)) {
+    if (device.line.at.starts_with("sim:")) {
+      say(device.name + "  " + device.line.driver + "  " + device.line.at + " (within each program)");
+      continue;
+    }
+    host.add(device.name, simulatorOf(device, request.faster), placeOf(device));
+    say(device.name + "  " + device.line.driver + "  " + host.address(device.name));
+    ++served;
+  }
+  if (served == 0) {
+    throw std::runtime_error(
+        (request.wall / "wall.yaml").string() +
+        ": there is nothing to serve: give projectors a control or a mirror at tcp://127.0.0.1:PORT "
+        "or serial:FILE");
+  }
+  for (const auto& fault : request.faults) orderFault(host, fault);
+  say("serving " + std::to_string(served) + (served == 1 ? " device" : " devices") + "; Ctrl+C ends it");
+  int number = 0;
+  (void)sigwait(&signals, &number);
+}
+
+}  // namespace pixelflex::calib
