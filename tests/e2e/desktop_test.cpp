@@ -60,6 +60,7 @@ TEST_F(DesktopTest, ShowsItsCommandInTheWallsOwnSize) {
   const Output output = desktop({"--headless", "--screenshot", shot().string(), "--", "xsetroot", "-solid", "#336699"});
   ASSERT_EQ(output.status, 0) << output.text;
   EXPECT_THAT(output.text, HasSubstr("a desktop of 640x240"));
+  EXPECT_THAT(output.text, HasSubstr("shown directly"));
   for (const auto* name : {"p1.png", "p2.png"}) {
     const devices::Image8 screen = devices::readPng8(shot() / name);
     EXPECT_EQ(screen.at(0, 0, 0), 0x33) << name;

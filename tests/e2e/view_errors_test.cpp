@@ -17,8 +17,8 @@ class ViewErrorsTest : public ::testing::Test {
   void SetUp() override { ASSERT_EQ(runProgram("new", {wall().string(), "--flat", "640x480"}).status, 0); }
   [[nodiscard]] fs::path wall() const { return folder_ / "wall"; }
   void expectError(const std::string& server, const std::vector<std::string>& words, int status = 1) {
-    const Output run =
-        runProgram("view", {wall().string(), server, "--headless", "--screenshot", (folder_ / "shot").string()});
+    const Output run = runProgram("view", {wall().string(), server, "--source", "vnc", "--headless", "--screenshot",
+                                           (folder_ / "shot").string()});
     EXPECT_EQ(run.status, status);
     if (status == 1) {
       EXPECT_THAT(run.text, StartsWith("pixelflex-view: "));

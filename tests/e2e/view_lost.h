@@ -54,6 +54,8 @@ class LostTest : public ::testing::Test {
   [[nodiscard]] std::unique_ptr<Process> startViewer(std::vector<std::string> more, const std::string& server = {}) {
     std::vector<std::string> command = {std::string(PIXELFLEX_BIN_DIR) + "/pixelflex-view", wall().string(),
                                         server.empty() ? "unix:" + socket() : server, "--headless"};
+    // Of this machine's Xvnc the X server would be taken.
+    if (std::ranges::find(more, "--source") == more.end()) more.insert(more.end(), {"--source", "vnc"});
     command.insert(command.end(), more.begin(), more.end());
     std::filesystem::remove(folder_ / "log");
     return std::make_unique<Process>(command, ProcessOptions{.log = folder_ / "log"});

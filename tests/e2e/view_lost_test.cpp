@@ -132,7 +132,7 @@ TEST_F(LostTest, TheLastPictureStaysDimmedOrMarked) {
     server->query({"xsetroot", "-solid", "#c0c0c0"});
     fs::remove(folder_ / "log");
     const Process viewer({std::string(PIXELFLEX_BIN_DIR) + "/pixelflex-view", wall().string(), "unix:" + socket(),
-                          "--when-lost", whenLost, "--view-only"},
+                          "--when-lost", whenLost, "--view-only", "--source", "vnc"},
                          {.environment = {"DISPLAY=" + screen.x().display()}, .log = folder_ / "log"});
     const auto shown = [&] { return grabRoot(screen.x().display()); };
     const devices::Image8 whole = grabRoot(server->display());

@@ -55,6 +55,7 @@ class ScreensTest : public ::testing::Test {
   void startViewer(std::vector<std::string> more = {}) { startViewerOf(desktop_->unixAddress(), std::move(more)); }
   void startViewerOf(const std::string& source, std::vector<std::string> more = {}) {
     std::vector<std::string> command = {std::string(PIXELFLEX_BIN_DIR) + "/pixelflex-view", wall().string(), source};
+    command.insert(command.end(), {"--source", "vnc"});
     command.insert(command.end(), more.begin(), more.end());
     viewer_ = std::make_unique<Process>(
         command, ProcessOptions{.environment = {"DISPLAY=" + screen_.display()}, .log = folder_ / "log"});

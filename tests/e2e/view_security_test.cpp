@@ -31,6 +31,8 @@ class ViewSecurityTest : public ::testing::Test {
     std::vector<std::string> words{std::string(PIXELFLEX_BIN_DIR) + "/pixelflex-view",
                                    wall().string(),
                                    server,
+                                   "--source",
+                                   "vnc",
                                    "--headless",
                                    "--screenshot",
                                    (folder_ / "shot").string(),

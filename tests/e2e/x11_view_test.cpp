@@ -59,17 +59,48 @@ TEST_F(LocalView, DoesNotShowTheDisplayThatItsWindowsAreOn) {
   EXPECT_THAT(refused.text, HasSubstr("which they show"));
 }
 
-TEST_F(LocalView, IsChosenForXvncWhenAskedTo) {
+TEST_F(LocalView, IsChosenForXvncUnlessSomethingIsWishedThatOnlyVncHas) {
   const auto x = startServer();
   x->query({"xsetroot", "-mod", "5", "7", "-fg", "#336699", "-bg", "#cc9911"});
-  const Output over = shoot("unix:" + socket());
-  EXPECT_THAT(over.text, Not(HasSubstr(kDirectly)));
-  const Output directly = shoot("unix:" + socket(), {"--source", "auto"});
+  const Output directly = shoot("unix:" + socket());
   ASSERT_EQ(directly.status, 0) << directly.text;
   EXPECT_THAT(directly.text, HasSubstr(kDirectly));
   expectExact(*x);
-  const Output secure = shoot("unix:" + socket(), {"--source", "auto", "--require", "vnc"});
-  EXPECT_THAT(secure.text, Not(HasSubstr(kDirectly))) << "what must be secured goes over VNC";
+  const std::vector<std::vector<std::string>> wishes = {
+      {"--source", "vnc"}, {"--require", "vnc"}, {"--user", "somebody"}, {"--resize", "--screens", "projectors"}};
+  for (const auto& wish : wishes) {
+    EXPECT_THAT(shoot("unix:" + socket(), wish).text, Not(HasSubstr(kDirectly))) << wish.front();
+  }
+}
+
+TEST_F(LocalView, GoesOverVncWhenTheServerMustBeAskedForAnotherSize) {
+  const auto x = startServer("800x600");
+  const Output shot = shoot("unix:" + socket(), {"--resize"});
+  ASSERT_EQ(shot.status, 0) << shot.text;
+  EXPECT_THAT(shot.text, Not(HasSubstr("scaled")));
+  EXPECT_EQ(devices::readPng8(folder_ / "shot/desktop.png").size(), (devices::Size{640, 240}));
+  expectExact(*x);
+}
+
+TEST_F(LocalView, NeedsTheServersCookieAndElseGoesOverVnc) {
+  const std::string name = "MIT-MAGIC-COOKIE-1";
+  const std::string head{'\xff', '\xff', 0, 0, 0, 0, 0, static_cast<char>(name.size())};  // any host and display
+  const std::string cookies = (folder_ / "cookies").string();
+  writeText(cookies, head + name + std::string{0, 16} + "sixteen letters.");
+  const XServer x([&](const TemporaryFolder&) {
+    return std::vector<std::string>{"Xtigervnc", "-geometry",      "640x240",  "-depth", "24",
+                                    "-auth",     cookies,          "-rfbport", "-1",     "-rfbunixpath",
+                                    socket(),    "-SecurityTypes", "None"};
+  });
+  const Output over = shoot("unix:" + socket());
+  EXPECT_EQ(over.status, 0);
+  EXPECT_THAT(over.text, Not(HasSubstr("pixelflex-view:"))) << "and says nothing";
+  const std::string viewer = std::string(PIXELFLEX_BIN_DIR) + "/pixelflex-view";
+  const Output directly =
+      run({viewer, wall().string(), "unix:" + socket(), "--headless", "--screenshot", (folder_ / "shot").string()},
+          {"PIXELFLEX_XAUTHORITY=" + cookies});
+  EXPECT_EQ(directly.status, 0);
+  EXPECT_THAT(directly.text, HasSubstr(kDirectly));
 }
 
 TEST_F(LocalView, GoesOnOverVncWhenItsServerCameBackAsAnotherDisplay) {

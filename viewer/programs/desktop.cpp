@@ -85,7 +85,8 @@ int runDesktop(const DesktopOptions& options) {
              server.cookies().string());
   std::fflush(stdout);
   const pid_t command = household.start(options.command, {.environment = environmentOf(server)});
-  const pid_t viewer = household.start(viewerCommand(options, server));
+  const pid_t viewer = household.start(viewerCommand(options, server),
+                                       {.environment = {{"PIXELFLEX_XAUTHORITY", server.cookies().string()}}});
   // The viewer first: it must not see the others go.
   const auto endAll = [&] {
     for (const pid_t child : {viewer, command, server.pid()}) household.end(child);

@@ -94,10 +94,10 @@ int main(int argc, char** argv) {
   app.add_option("--region", region, "show only this part of the desktop: X,Y,WIDTHxHEIGHT, desktop pixels");
   app.add_option(
          "--source", options.source,
-         "vnc, as SERVER says, or auto: straight from the X server of this machine when the VNC server is Xvnc, "
-         "thus one and the same; else vnc")
+         "auto: straight from the X server of this machine when the VNC server is Xvnc, thus one and the same, it lets "
+         "us in and nothing is wished for that only VNC has; else vnc, as SERVER says")
       ->transform(CLI::CheckedTransformer(pixelflex::viewer::kSources))
-      ->option_text("vnc|auto");
+      ->option_text("auto|vnc");
   bool resize = false;
   app.add_flag("--resize", resize,
                "ask the server for a desktop of the wall's own size, and again after a new calibration");

@@ -33,7 +33,7 @@ enum class PointerMode { kAuto, kDesktop, kScreen };
 struct ViewOptions {
   std::string wall;
   ServerAddress server;
-  Source source = Source::kVnc;
+  Source source = Source::kAuto;
   bool headless = false;
   std::optional<std::string> screenshot;  // folder
   std::chrono::milliseconds settle{500};

@@ -36,12 +36,16 @@ SessionOptions sessionOptions(const ViewOptions& options) {
           .retry = retryOf(options)};
 }
 
-// The X display to show instead of what was asked for: only a VNC server may be passed by, and no wish for security.
+// The X display to show instead of what was asked for: only a VNC server may be passed by, and no wish for what it
+// alone has.
 std::optional<XDisplay> displayInstead(const ViewOptions& options) {
   const SecurityOptions& security = options.security;
   const bool secured =
       security.require != SecurityLevel::kNone || !security.caFile.empty() || !security.fingerprint.empty();
-  if (options.source != Source::kAuto || secured) return std::nullopt;
+  // Who gives a password means it to be asked for; screens can be arranged over VNC alone.
+  const bool identified = options.password || !options.user.empty();
+  const bool arranged = options.resize == Resize::kScreenPerProjector;
+  if (options.source != Source::kAuto || secured || identified || arranged) return std::nullopt;
   return displayBehind(options.server);
 }
 
@@ -154,6 +158,7 @@ void WallView::handle(const SessionEvent& event) {
   } else if (const auto* lost = std::get_if<Lost>(&event)) {
     lose(lost->message);
   } else if (const auto* closed = std::get_if<Closed>(&event)) {
+    if (direct_ && !hasPicture_) return goByVnc(retryOf(options_));
     if (closed->kind == CloseKind::kPasswordNeeded) throw PasswordNeeded(closed->message);
     throw ViewError(closed->message);
   }
@@ -161,17 +166,21 @@ void WallView::handle(const SessionEvent& event) {
 
 void WallView::lose(const std::string& reason) {
   connected_ = false;
-  if (std::exchange(direct_, false)) {
-    local_ = false;
-    // Whether its display will be the same when it returns, nobody knows.
-    SessionOptions waiting = sessionOptions(options_);
-    waiting.retry = Retry::kAlways;
-    source_ = std::make_unique<Session>(std::move(waiting), belt_, wake_);
-  }
+  // Whether its display will be the same when it returns, nobody knows.
+  if (direct_) goByVnc(Retry::kAlways);
   if (lostSince_) return;
   lostSince_ = Clock::now();
   fmt::print(stderr, "pixelflex-view: {}; waiting for it to return\n", reason);
   picture_.lose(desktop_);
+}
+
+void WallView::goByVnc(Retry retry) {
+  direct_ = local_ = false;
+  connected_ = false;
+  SessionOptions options = sessionOptions(options_);
+  options.retry = retry;
+  source_.reset();  // first, as the belt has one source at a time
+  source_ = std::make_unique<Session>(std::move(options), belt_, wake_);
 }
 
 void WallView::comeBack() {
@@ -209,7 +218,10 @@ void WallView::requestLayout() {
   ScreenLayout layout{wall().desktop(), {boxOf(wall().desktop())}};
   if (options_.resize == Resize::kScreenPerProjector) layout.screens = screensOfProjectors(wall());
   const bool fits = desktop_ == layout.desktop;
-  if (!source_->requestLayout(std::move(layout)) && !fits) {
+  if (source_->requestLayout(std::move(layout)) || fits) return;
+  if (direct_) {
+    goByVnc(retryOf(options_));
+  } else {
     fmt::print(stderr, "pixelflex-view: this desktop cannot be asked for another size; it is shown scaled\n");
   }
 }

@@ -93,6 +93,8 @@ class WallView {
  private:
   void handle(const SessionEvent& event);
   void lose(const std::string& reason);
+  /// From here on the VNC server that was asked for is the source.
+  void goByVnc(Retry retry);
   void comeBack();
   [[nodiscard]] std::unique_ptr<DesktopSource> openSource();
   void adopt(devices::Size desktop);

@@ -131,6 +131,7 @@ bool letsUsIn(const XDisplay& display) {
 
 std::optional<XDisplay> displayBehind(const ServerAddress& server) {
   const Inodes listeners = listenersAt(server);
+  if (listeners.empty()) return std::nullopt;
   const Processes processes = processesWithAny(listeners);
   if (processes.size() != 1) return std::nullopt;
   const Inodes open = socketsOf(*processes.begin());

@@ -11,6 +11,8 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <stdexcept>
@@ -90,6 +92,25 @@ std::string readBytes(int socket, std::size_t count, Deadline deadline, const Si
   return bytes;
 }
 
+// Of a display of this machine, by its number.
+bool isFor(const Xauth& entry, std::string_view host, std::string_view number) {
+  const std::string_view address(entry.address, entry.address_length);
+  const bool here = entry.family == FamilyWild || (entry.family == FamilyLocal && address == host);
+  const std::string_view itsNumber(entry.number, entry.number_length);  // empty: any
+  return here && (itsNumber.empty() || itsNumber == number) &&
+         std::string_view(entry.name, entry.name_length) == kCookieName;
+}
+
+XCookie cookieIn(const std::string& path, std::string_view host, std::string_view number) {
+  const std::unique_ptr<FILE, decltype(&std::fclose)> file(std::fopen(path.c_str(), "rbe"), &std::fclose);
+  while (file != nullptr) {
+    const std::unique_ptr<Xauth, DisposeAuth> entry(XauReadAuth(file.get()));
+    if (entry == nullptr) break;
+    if (isFor(*entry, host, number)) return {std::string(kCookieName), std::string(entry->data, entry->data_length)};
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string XDisplay::text() const {
@@ -107,6 +128,10 @@ XCookie cookieFor(const XDisplay& display) {
   std::array<char, 256> host{};
   if (::gethostname(host.data(), host.size() - 1) != 0) return {};
   const std::string number = std::to_string(display.number);
+  if (const char* file = std::getenv("PIXELFLEX_XAUTHORITY")) {
+    const XCookie cookie = cookieIn(file, host.data(), number);
+    if (!cookie.data.empty()) return cookie;
+  }
   const auto length = [](std::string_view text) { return static_cast<unsigned short>(text.size()); };
   const std::unique_ptr<Xauth, DisposeAuth> found(XauGetAuthByAddr(FamilyLocal, length(host.data()), host.data(),
                                                                    length(number), number.c_str(), length(kCookieName),

@@ -26,6 +26,7 @@ struct XCookie {
   std::string data;
 };
 
+/// PIXELFLEX_XAUTHORITY names a file to look into first, for a viewer whose windows are on another display.
 [[nodiscard]] XCookie cookieFor(const XDisplay& display);
 
 /// Connects to the server's UNIX socket, non-blocking. Throws SessionError (kUnreachable).
