@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <cstring>
 #include <deque>
 #include <iterator>
 #include <thread>
@@ -57,7 +58,11 @@ class Session::Worker {
       connection_.run(stop, [&] { talk(stop); });
     });
   }
-  ~Worker() { stop(); }
+  ~Worker() {
+    stop();
+    thread_.join();  // it reads the password
+    if (options_.password) ::explicit_bzero(options_.password->data(), options_.password->size());
+  }
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
