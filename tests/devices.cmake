@@ -23,6 +23,15 @@ pixelflex_test(device_ladder_test LABEL e2e
   LINK pixelflex_device_support pixelflex_device_host pixelflex_projector_control)
 
 pixelflex_test(device_cli_test LABEL e2e
-  SOURCES e2e/device_cli_test.cpp
+  SOURCES e2e/device_cli_test.cpp e2e/device_room.h
   LINK pixelflex_device_support pixelflex_device_host pixelflex_store)
 add_dependencies(device_cli_test pixelflex-device pixelflex-simulate pixelflex-check)
+
+pixelflex_test(wall_control_test LABEL unit
+  SOURCES unit/preset_plan_test.cpp
+  LINK pixelflex_wall_control)
+
+pixelflex_test(preset_cli_test LABEL e2e
+  SOURCES e2e/preset_cli_test.cpp e2e/device_room.h
+  LINK pixelflex_device_support pixelflex_device_host pixelflex_store)
+add_dependencies(preset_cli_test pixelflex-device pixelflex-preset pixelflex-check)

@@ -103,8 +103,21 @@ class HitachiBeef : public ProjectorDriver {
     if (on) {
       found_ = found;
       shutter_ = has(*std::ranges::find(kItems, "mute", &Item::name));
+      knowsShutter_ = true;
     }
     return found;
+  }
+
+  /// Without asking what else there is.
+  std::optional<SettingInfo> doFind(std::string_view setting) override {
+    if (!found_.empty()) return ProjectorDriver::doFind(setting);
+    const auto item = std::ranges::find(kItems, setting, &Item::name);
+    if (item == kItems.end()) return std::nullopt;
+    if (setting == "mute" && !knowsShutter_) {
+      shutter_ = has(*item);
+      knowsShutter_ = true;
+    }
+    return describe(*item);
   }
 
   SettingValue doRead(const SettingInfo& setting) override {
@@ -270,6 +283,7 @@ class HitachiBeef : public ProjectorDriver {
 
   std::vector<SettingInfo> found_;
   bool shutter_ = true;
+  bool knowsShutter_ = false;
 };
 
 }  // namespace

@@ -51,7 +51,7 @@ std::string ProjectorDriver::askSlowly(const Exchange& exchange, const Progress&
     complain("no longer waited for on request; it goes on by itself");
   }
   Line::Answer answer = future.get();
-  if (const auto* error = std::get_if<LineError>(&answer)) throw *error;
+  if (const auto* problem = std::get_if<LineProblem>(&answer)) throw LineError(*problem);
   return std::get<std::string>(std::move(answer));
 }
 

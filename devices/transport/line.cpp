@@ -32,7 +32,7 @@ std::string Line::ask(Exchange exchange) {
   auto answer = promise->get_future();
   submit(std::move(exchange), [promise](Answer reply) { promise->set_value(std::move(reply)); });
   Answer reply = answer.get();
-  if (const auto* error = std::get_if<LineError>(&reply)) throw *error;
+  if (const auto* problem = std::get_if<LineProblem>(&reply)) throw LineError(*problem);
   return std::get<std::string>(std::move(reply));
 }
 

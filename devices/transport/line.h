@@ -46,7 +46,7 @@ struct LineOptions {
 /// line.
 class Line {
  public:
-  using Answer = std::variant<std::string, LineError>;
+  using Answer = std::variant<std::string, LineProblem>;
 
   Line(LineLoop& loop, LineAddress address, LineOptions options);
   /// Requests that still wait are answered with kInterrupted.

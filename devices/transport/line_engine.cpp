@@ -35,10 +35,10 @@ std::string Line::Engine::name() const {
 }
 
 void Line::Engine::enqueue(Exchange exchange, std::function<void(Answer)> done) {
-  if (shut_) return done(LineError(LineFailure::kInterrupted, name() + ": the line is closed"));
+  if (shut_) return done(LineProblem{LineFailure::kInterrupted, name() + ": the line is closed"});
   const bool urgent = exchange.urgent;
   if (queue_.size() >= kMostWaiting && !urgent) {
-    return done(LineError(LineFailure::kCrowded, name() + ": too many requests wait already"));
+    return done(LineProblem{LineFailure::kCrowded, name() + ": too many requests wait already"});
   }
   // One that is urgent goes behind the other urgent ones.
   auto place = queue_.end();
@@ -170,19 +170,19 @@ void Line::Engine::deadlinePassed() {
   std::string message = name() + ": no reply";
   if (!received_.empty()) message = name() + ": the reply was cut short";
   if (stuck) message = name() + ": the request does not leave";
-  const LineError error(LineFailure::kSilent, message + "; is it switched on, and is that its speed?");
-  if (!stuck) return breakOff(error);
+  const LineProblem problem{LineFailure::kSilent, message + "; is it switched on, and is that its speed?"};
+  if (!stuck) return breakOff(problem);
   // The front of the queue gets its own message, those behind it that the connection was given up.
   const auto done = std::move(queue_.front().done);
   queue_.pop_front();
   connectionLost("it takes nothing");
-  done(error);
+  done(problem);
 }
 
-void Line::Engine::breakOff(const LineError& error) {
+void Line::Engine::breakOff(const LineProblem& problem) {
   emptyNext_ = true;
   if (!options_.resync.empty()) channel_->write(options_.resync);
-  finish(error);
+  finish(problem);
 }
 
 void Line::Engine::empty() {
@@ -207,12 +207,12 @@ void Line::Engine::interrupt() {
   received_.clear();
   state_ = State::kReady;
   emptyNext_ = true;
-  done(LineError(LineFailure::kInterrupted, name() + ": broken off by an urgent request"));
+  done(LineProblem{LineFailure::kInterrupted, name() + ": broken off by an urgent request"});
 }
 
 void Line::Engine::failAll(LineFailure failure, const std::string& message) {
   // The answers may ask again.
-  for (auto& pending : std::exchange(queue_, {})) pending.done(LineError(failure, message));
+  for (auto& pending : std::exchange(queue_, {})) pending.done(LineProblem{failure, message});
 }
 
 void Line::Engine::disconnect() {

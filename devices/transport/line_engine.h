@@ -56,7 +56,7 @@ class Line::Engine : public std::enable_shared_from_this<Engine> {
   void receive(std::string_view bytes);
   void tryReply();
   void deadlinePassed();
-  void breakOff(const LineError& error);
+  void breakOff(const LineProblem& problem);
   void empty();
   void awaitQuiet();
   void interrupt();

@@ -13,10 +13,16 @@ enum class LineFailure {
   kCrowded,      // too many requests wait already
 };
 
-/// A request got no reply. The message names the line, says what is wrong and what to look at.
+/// Why a request got no reply, to be handed from thread to thread.
+struct LineProblem {
+  LineFailure failure = LineFailure::kLost;
+  std::string message;  // names the line, says what is wrong and what to look at
+};
+
+/// A request got no reply.
 class LineError : public std::runtime_error {
  public:
-  LineError(LineFailure failure, const std::string& message) : std::runtime_error(message), failure_(failure) {}
+  explicit LineError(const LineProblem& problem) : std::runtime_error(problem.message), failure_(problem.failure) {}
   [[nodiscard]] LineFailure failure() const { return failure_; }
 
  private:

@@ -3,16 +3,11 @@
 
 #include <chrono>
 #include <csignal>
-#include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "calib/store/store.h"
-#include "devices/serve/device_host.h"
-#include "devices/simulate/pan_tilt_simulator.h"
-#include "devices/simulate/projector_simulator.h"
-#include "devices/simulate/simulators.h"
+#include "tests/e2e/device_room.h"
 #include "tests/e2e/programs.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
@@ -22,66 +17,10 @@ namespace pixelflex::testing {
 namespace {
 
 using devices::Fault;
-using devices::PanTiltSimulator;
-using std::chrono::milliseconds;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using Clock = std::chrono::steady_clock;
 
-/// Projectors with a control and a mirror each, every one behind a TCP port of its own.
-class DeviceCliTest : public ::testing::Test {
- protected:
-  void makeRoom(int projectors, double speedFactor = 1) {
-    calib::Wall wall;
-    wall.camera.source = "none";
-    for (int i = 0; i < projectors; ++i) {
-      calib::ProjectorConfig projector;
-      projector.name = "p" + std::to_string(i + 1);
-      projector.resolution = {1024, 768};
-      projector.flatAt = {1024 * i, 0};
-      host_.add(projector.name + ".control", devices::makeSimulator("proxima-dp6850"));
-      host_.add(projector.name + ".mirror",
-                std::make_unique<PanTiltSimulator>(PanTiltSimulator::Options{.speedFactor = speedFactor}));
-      projector.control = {"proxima-dp6850", host_.address(projector.name + ".control"), {}};
-      projector.mirror = {"ptu", host_.address(projector.name + ".mirror"), {}};
-      wall.projectors.push_back(projector);
-    }
-    std::filesystem::create_directory(folder());
-    saveWall(folder(), wall);
-  }
-
-  [[nodiscard]] std::string folder() const { return (folder_ / "wall").string(); }
-  [[nodiscard]] Output device(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), folder());
-    return runProgram("device", arguments);
-  }
-  [[nodiscard]] PanTiltSimulator::Motor pan(const std::string& mirror) {
-    PanTiltSimulator::Motor motor;
-    host_.with(mirror, [&](devices::SimulatedDevice& unit, auto) {
-      motor = dynamic_cast<PanTiltSimulator&>(unit).motor(PanTiltSimulator::kPan);
-    });
-    return motor;
-  }
-  [[nodiscard]] bool moves(const std::string& mirror) {
-    bool moving = false;
-    host_.with(mirror, [&](devices::SimulatedDevice& unit, auto) {
-      moving = dynamic_cast<PanTiltSimulator&>(unit).isMoving();
-    });
-    return moving;
-  }
-  /// Within a generous time.
-  [[nodiscard]] bool comesTo(bool moving, const std::string& mirror) {
-    const auto deadline = Clock::now() + std::chrono::seconds(60);
-    while (moves(mirror) != moving) {
-      if (Clock::now() > deadline) return false;
-      std::this_thread::sleep_for(milliseconds(5));
-    }
-    return true;
-  }
-
-  TemporaryFolder folder_;
-  devices::DeviceHost host_;
-};
+using DeviceCliTest = DeviceRoomTest;
 
 TEST_F(DeviceCliTest, ListsReadsAndSets) {
   makeRoom(2, 20);

@@ -162,7 +162,7 @@ TEST_F(LineTest, TheQueueIsBounded) {
   std::atomic<int> interrupted = 0;
   for (int i = 0; i < 80; ++i) {
     line->submit(asking("x"), [&](const Line::Answer& answer) {
-      const auto failure = std::get<LineError>(answer).failure();
+      const auto failure = std::get<devices::LineProblem>(answer).failure;
       ++(failure == LineFailure::kCrowded ? crowded : interrupted);
     });
   }
