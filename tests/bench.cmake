@@ -28,7 +28,17 @@ add_executable(redraw_bench bench/redraw_bench.cpp)
 target_link_libraries(redraw_bench PRIVATE pixelflex_options pixelflex_renderer pixelflex_reference CLI11::CLI11
   fmt::fmt opencv_core opencv_imgproc PkgConfig::EPOXY)
 target_include_directories(redraw_bench SYSTEM PRIVATE ${OpenCV_INCLUDE_DIRS})
-set_target_properties(calibrate_bench geometry_bench day_bench decode_bench reconnect_bench redraw_bench scene_client
+# The headless viewer's own loop runs inside, so that its frame can be looked at.
+set(viewer_programs ${PROJECT_SOURCE_DIR}/viewer/programs)
+add_executable(latency_bench bench/latency_bench.cpp bench/marks.cpp bench/marks.h bench/watched_screen.cpp
+  bench/watched_screen.h ${viewer_programs}/wall_view.cpp ${viewer_programs}/wall_reloader.cpp
+  ${viewer_programs}/lost_picture.cpp ${viewer_programs}/desk_texts.cpp ${viewer_programs}/view_security.cpp
+  ${viewer_programs}/password.cpp)
+target_link_libraries(latency_bench PRIVATE pixelflex_options pixelflex_test_support pixelflex_plan pixelflex_vnc
+  pixelflex_x11source pixelflex_renderer pixelflex_store CLI11::CLI11 fmt::fmt X11::X11 PkgConfig::EPOXY)
+target_compile_definitions(latency_bench PRIVATE PIXELFLEX_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+add_dependencies(latency_bench pixelflex-new pixelflex-view)
+set_target_properties(calibrate_bench geometry_bench day_bench decode_bench latency_bench reconnect_bench redraw_bench scene_client
   PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
 
 add_test(NAME calibrate_bench COMMAND calibrate_bench --tiny)
@@ -36,6 +46,8 @@ add_test(NAME geometry_bench COMMAND geometry_bench "--benchmark_filter=/(768|2)
   --benchmark_format=json)
 add_test(NAME day_bench COMMAND day_bench --updates 4000 --resize-every 200 --most-growth 5)
 add_test(NAME decode_bench COMMAND decode_bench --width 800 --height 600 --record 0.5 --passes 1)
+add_test(NAME latency_bench COMMAND latency_bench --width 800 --height 600 --rounds 1 --updates 30)
 add_test(NAME redraw_bench COMMAND redraw_bench --rounds 1 --tiny)
 add_test(NAME reconnect_bench COMMAND reconnect_bench --returns 2)
-set_tests_properties(calibrate_bench geometry_bench day_bench decode_bench redraw_bench reconnect_bench PROPERTIES LABELS bench TIMEOUT 180)
+set_tests_properties(calibrate_bench geometry_bench day_bench decode_bench latency_bench redraw_bench reconnect_bench
+  PROPERTIES LABELS bench TIMEOUT 180)

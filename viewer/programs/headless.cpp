@@ -55,6 +55,7 @@ int runHeadless(const ViewOptions& options, const WallPlan& wall) {
     stats.printIfDue(view);
     view.step();
     view.shown();
+    stats.shown(view);
     auto deadline = std::min(stats.due(), view.due());
     if (options.screenshot && view.hasPicture()) {
       const auto settled = view.lastChange() + options.settle;

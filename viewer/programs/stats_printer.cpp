@@ -28,7 +28,8 @@ RenderStats difference(RenderStats now, const RenderStats& before) {
 
 }  // namespace
 
-StatsPrinter::StatsPrinter(const ViewOptions& options) : prints_(options.stats), overlays_(options.statsOverlay) {
+StatsPrinter::StatsPrinter(const ViewOptions& options)
+    : prints_(options.stats), overlays_(options.statsOverlay), started_(options.started) {
   second_.due = begun_ + kWorkPeriod;
   tenSeconds_.due = begun_ + kStagesPeriod;
   if (!options.statsJson) return;
@@ -65,6 +66,14 @@ void StatsPrinter::printIfDue(WallView& view) {
     printStages(since(tenSeconds_, view, now));
     tenSeconds_ = markOf(view, now + kStagesPeriod);
   }
+}
+
+void StatsPrinter::shown(const WallView& view) {
+  if (firstShown_ || !view.hasPicture()) return;
+  firstShown_ = true;
+  const double seconds = std::chrono::duration<double>(WallView::Clock::now() - started_).count();
+  if (prints_) fmt::print(stderr, "stats: the first picture {:.3f} s after the start\n", seconds);
+  if (json_) *json_ << fmt::format("{{\"first_picture_s\":{:.3f}}}", seconds) << std::endl;
 }
 
 void StatsPrinter::printWork(const Account& account) const {

@@ -10,8 +10,9 @@
 namespace pixelflex::viewer {
 
 /// `--stats`: a line on stderr each second in which something was uploaded or drawn, one each ten in which updates were
-/// shown on how long they took, and the sums at the end. `--stats=overlay`: a panel on the first projector, brought up
-/// to date each second in which updates were shown. `--stats-json`: the same each ten seconds and at the end.
+/// shown on how long they took, one when the first picture is shown, and the sums at the end. `--stats=overlay`: a
+/// panel on the first projector, brought up to date each second in which updates were shown. `--stats-json`: the same
+/// with the first picture, each ten seconds and at the end.
 class StatsPrinter {
  public:
   /// Throws ViewError when the file cannot be written.
@@ -20,6 +21,8 @@ class StatsPrinter {
   /// When the loop should wake for the next line at the latest.
   [[nodiscard]] WallView::Clock::time_point due() const;
   void printIfDue(WallView& view);
+  /// What the view has drawn is shown: tells of the first picture.
+  void shown(const WallView& view);
   void printTotal(WallView& view);
 
  private:
@@ -40,6 +43,8 @@ class StatsPrinter {
   bool prints_;
   bool overlays_;
   std::optional<std::ofstream> json_;
+  const Time started_;
+  bool firstShown_ = false;
   Time begun_ = WallView::Clock::now();
   Mark second_;
   Mark tenSeconds_;

@@ -164,7 +164,9 @@ int main(int argc, char** argv) {
       ->option_text("dim|mark|keep");
   std::string stats;
   app.add_flag("--stats{log}", stats,
-               "print what was uploaded and drawn each second, and each ten how long every stage took; "
+               "print when the first picture is there, what was uploaded and drawn each second, and each ten how long "
+               "every stage "
+               "took; "
                "--stats=overlay: shown on the first projector instead")
       ->check(CLI::IsMember({"log", "overlay"}));
   app.add_option("--stats-json", options.statsJson, "write the same to FILE, a JSON object a line")

@@ -54,6 +54,7 @@ struct ViewOptions {
   bool lossless = false;
   std::optional<Retry> retry;  // empty: kNever for a screenshot, else kLost
   WhenLost whenLost = WhenLost::kDim;
+  std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();  // of the program
   bool stats = false;
   bool statsOverlay = false;  // on the first projector
   bool showDamage = false;

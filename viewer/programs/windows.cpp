@@ -99,6 +99,7 @@ class WallWindows {
       present(step.drawn);
       presentRoom();
       view_.shown();
+      stats.shown(view_);
       for (const auto& [text, selection] : step.copied) {
         if (const auto here = clipboards_.find(selection); here != clipboards_.end()) here->second.set(text);
       }
