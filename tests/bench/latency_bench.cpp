@@ -37,7 +37,7 @@ struct Options {
   int rounds = 6;
   int updates = 240;  // of each viewer in each round
   double rate = 30;   // updates a second
-  std::vector<std::string> viewers{"tigervnc", "window", "headless"};
+  std::vector<std::string> viewers{"tigervnc", "window", "headless", "direct-window", "direct"};
 };
 
 std::string textOf(devices::Size size) {
@@ -91,8 +91,8 @@ class WindowWatch : public Watch {
 /// The headless viewer's loop, in this process: its frame is looked at each time it has drawn.
 class HeadlessWatch : public Watch {
  public:
-  HeadlessWatch(const std::string& wall, const std::string& server, Marks& marks)
-      : thread_([this, wall, server, &marks](const std::stop_token& stop) { view(wall, server, marks, stop); }) {
+  HeadlessWatch(const viewer::ViewOptions& options, Marks& marks)
+      : thread_([this, options, &marks](const std::stop_token& stop) { view(options, marks, stop); }) {
     const auto deadline = Clock::now() + kPatience;
     while (!ready_ && Clock::now() < deadline) std::this_thread::sleep_for(10ms);
     if (!ready_) throw std::runtime_error("the headless viewer shows nothing");
@@ -108,10 +108,8 @@ class HeadlessWatch : public Watch {
     woken_ = true;
     changed_.notify_one();
   }
-  void view(const std::string& folder, const std::string& server, Marks& marks, const std::stop_token& stop) {
-    viewer::ViewOptions options;
-    options.wall = folder;
-    options.server = viewer::parseServerAddress(server);
+  void view(const viewer::ViewOptions& options, Marks& marks, const std::stop_token& stop) {
+    const std::string& folder = options.wall;
     const viewer::WallPlan wall(folder, calib::loadWall(folder), calib::loadCalibration(folder), {}, options.fit);
     devices::HeadlessContext context;
     viewer::WallView view(options, wall, context, [this] { wake(); });
@@ -164,10 +162,19 @@ class Course {
  private:
   std::unique_ptr<Watch> start(const std::string& viewer) {
     const std::string address = server_.unixAddress();
-    if (viewer == "headless") return std::make_unique<HeadlessWatch>(wall_, address, marks_);
-    if (viewer == "window") {
+    const bool direct = viewer.starts_with("direct");
+    if (viewer == "headless" || viewer == "direct") {
+      viewer::ViewOptions options;
+      options.wall = wall_;
+      options.server = viewer::parseServerAddress(direct ? "x11:" + server_.x().display() : address);
+      options.source = viewer::Source::kVnc;
+      return std::make_unique<HeadlessWatch>(options, marks_);
+    }
+    if (viewer.ends_with("window")) {
       return std::make_unique<WindowWatch>(
-          screen_, marks_, std::vector<std::string>{PIXELFLEX_BIN_DIR "/pixelflex-view", wall_, address});
+          screen_, marks_,
+          std::vector<std::string>{PIXELFLEX_BIN_DIR "/pixelflex-view", wall_,
+                                   direct ? "x11:" + server_.x().display() : address, "--source", "vnc"});
     }
     return std::make_unique<WindowWatch>(
         screen_, marks_,
@@ -233,7 +240,8 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app(
       "Milliseconds from an X client's drawing of a small box to its pixels in a projector's frame (headless: in the "
-      "viewer's frame; window: on the X screen), and to the window of Debian's TigerVNC viewer. ratio: ours over "
+      "viewer's frame; window: on the X screen; direct: of the X server itself, without VNC), and to the window of "
+      "Debian's TigerVNC viewer. ratio: ours over "
       "theirs.");
   app.add_option("--width", options.desktop.width)->check(CLI::Range(640, 16384));
   app.add_option("--height", options.desktop.height)->check(CLI::Range(480, 16384));
@@ -242,7 +250,7 @@ int main(int argc, char** argv) {
   app.add_option("--rate", options.rate, "updates a second")->check(CLI::Range(0.1, 1000.0));
   app.add_option("--viewers", options.viewers)
       ->delimiter(',')
-      ->check(CLI::IsMember({"tigervnc", "window", "headless"}));
+      ->check(CLI::IsMember({"tigervnc", "window", "headless", "direct-window", "direct"}));
   CLI11_PARSE(app, argc, argv);
   ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
   try {
