@@ -19,6 +19,8 @@ constexpr std::size_t kLongestReply = 16384;
 constexpr milliseconds kFirstPause{200};
 constexpr milliseconds kLongestPause{1000};
 constexpr milliseconds kLongestEmptying{2000};
+// In a row: the connection may be dead without a word of it.
+constexpr int kMostSilences = 2;
 
 }  // namespace
 
@@ -110,6 +112,7 @@ void Line::Engine::pauseBeforeNext() {
 void Line::Engine::dropChannel() {
   ++channelNumber_;
   state_ = State::kDown;
+  silences_ = 0;
   connected = false;
   emptyNext_ = false;
   timer_->cancel();
@@ -144,6 +147,7 @@ void Line::Engine::tryReply() {
   const auto size = queue_.front().exchange.end(received_);
   if (!size) return;
   assert(*size <= received_.size());
+  silences_ = 0;
   std::string reply = received_.substr(0, *size);
   received_.erase(0, *size);
   finish(std::move(reply));
@@ -171,12 +175,14 @@ void Line::Engine::deadlinePassed() {
   if (!received_.empty()) message = name() + ": the reply was cut short";
   if (stuck) message = name() + ": the request does not leave";
   const LineProblem problem{LineFailure::kSilent, message + "; is it switched on, and is that its speed?"};
-  if (!stuck) return breakOff(problem);
-  // The front of the queue gets its own message, those behind it that the connection was given up.
+  if (!stuck && ++silences_ < kMostSilences) return breakOff(problem);
+  // Those behind it go to another connection.
   const auto done = std::move(queue_.front().done);
   queue_.pop_front();
-  connectionLost("it takes nothing");
+  dropChannel();
+  pauseBeforeNext();
   done(problem);
+  pump();
 }
 
 void Line::Engine::breakOff(const LineProblem& problem) {

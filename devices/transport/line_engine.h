@@ -76,6 +76,7 @@ class Line::Engine : public std::enable_shared_from_this<Engine> {
   std::chrono::steady_clock::time_point emptyBy_{};
   std::chrono::steady_clock::time_point earliestOpen_{};
   std::chrono::milliseconds pause_{0};
+  int silences_ = 0;
   bool emptyNext_ = false;  // a reply that nobody waits for may still come
   bool shut_ = false;
 };

@@ -4,8 +4,11 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <array>
+#include <chrono>
 #include <memory>
 #include <string>
+#include <thread>
 #include <tuple>
 
 #include "devices/projector_control/device_factory.h"
@@ -54,6 +57,19 @@ class DeviceLadderTest : public ::testing::TestWithParam<std::tuple<Serial, Way>
                                        .infocusGap = std::chrono::milliseconds(5)});
   }
 
+  /// A bridge may need a while to see that its device is there again.
+  static bool recovers(devices::Device& device) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (std::chrono::steady_clock::now() < deadline) {
+      try {
+        return device.read(serial().setting) == devices::SettingValue(serial().number);
+      } catch (const std::runtime_error&) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      }
+    }
+    return false;
+  }
+
   TemporaryFolder folder_;
   devices::DeviceHost host_;
   std::string terminal_;
@@ -70,6 +86,10 @@ TEST_P(DeviceLadderTest, SetsAndReads) {
   EXPECT_THROW((void)device->read(serial().setting), std::runtime_error);
   host_.heal("p1");
   EXPECT_EQ(device->read(serial().setting), devices::SettingValue(serial().number));
+  host_.order("p1", Fault::kCut);
+  EXPECT_THROW((void)device->read(serial().setting), std::runtime_error);
+  host_.heal("p1");
+  EXPECT_TRUE(recovers(*device));
 }
 
 std::string nameOf(const ::testing::TestParamInfo<std::tuple<Serial, Way>>& info) {

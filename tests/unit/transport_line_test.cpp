@@ -119,6 +119,17 @@ TEST_F(LineTest, ALostConnectionIsMadeAgain) {
   EXPECT_EQ(line->session(), 2U);
 }
 
+// A connection may be dead without a word, when a cable was pulled or a firewall has forgotten it.
+TEST_F(LineTest, ALastingSilenceIsAnsweredWithANewConnection) {
+  std::atomic<bool> dead = true;
+  ScriptedServer server([&](const std::string& bytes) { return dead ? "" : echo(bytes); });
+  const auto line = lineTo(server.address(), {.quiet = milliseconds(5)});
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(failureOf(*line, asking("x", milliseconds(40))), LineFailure::kSilent);
+  dead = false;
+  EXPECT_EQ(line->ask(asking("y")), "<y>");
+  EXPECT_EQ(server.clients(), 2);
+}
+
 TEST_F(LineTest, AnUrgentRequestBreaksOffASlowOne) {
   ScriptedServer server([](const std::string& bytes) { return bytes == "slow" ? "" : echo(bytes); });
   const auto line = lineTo(server.address());
