@@ -11,12 +11,9 @@ uniform float brightness;  // of the desktop's light, 1: as it is
 #if COLOUR
 uniform mat3 colour;
 #endif
-#if MASK
-uniform sampler2D mask;  // of blend and gain
-#endif
-#if BLACK
-uniform sampler2D black;
-uniform vec3 largestBlack;  // light
+#if MASK || BLACK
+uniform usampler2D lightMap;  // lower half: root of blend and gain, upper half: black; 65535 is 1
+uniform vec3 largestBlack;    // light, over 65535
 #endif
 
 vec3 lightAt(vec2 texel) {
@@ -35,11 +32,15 @@ vec3 matched(vec3 light) {
 #if COLOUR
   light = colour * light;
 #endif
+#if MASK || BLACK
+  uint both = texelFetch(lightMap, ivec2(gl_FragCoord.xy), 0).r;
+#endif
 #if MASK
-  light *= texelFetch(mask, ivec2(gl_FragCoord.xy), 0).r;
+  float root = float(both & 0xffffu) * (1.0 / 65535.0);
+  light *= root * root;
 #endif
 #if BLACK
-  light += largestBlack * texelFetch(black, ivec2(gl_FragCoord.xy), 0).r;
+  light += largestBlack * float(both >> 16);
 #endif
 #if COLOUR || BLACK
   light = clamp(light, 0.0, 1.0);

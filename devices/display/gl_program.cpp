@@ -41,6 +41,24 @@ void link(std::string_view name, GlName program) {
   throw DisplayError(fmt::format("the shaders of '{}' do not link:\n{}", name, log));
 }
 
+std::map<std::string, int, std::less<>> locationsIn(GLuint program) {
+  std::map<std::string, int, std::less<>> locations;
+  GLint count = 0;
+  GLint longest = 0;
+  glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+  glGetProgramiv(program, GL_ACTIVE_UNIFORM_MAX_LENGTH, &longest);
+  std::string name(static_cast<std::size_t>(std::max(longest, 1)), '\0');
+  for (GLint i = 0; i < count; ++i) {
+    GLsizei length = 0;
+    GLint extent = 0;
+    GLenum type = 0;
+    glGetActiveUniform(program, static_cast<GLuint>(i), longest, &length, &extent, &type, name.data());
+    const std::string uniform = name.substr(0, static_cast<std::size_t>(length));
+    locations.emplace(uniform, glGetUniformLocation(program, uniform.c_str()));
+  }
+  return locations;
+}
+
 }  // namespace
 
 GlProgram::GlProgram(std::string_view name, const ShaderPieces& vertex, const ShaderPieces& fragment)
@@ -52,14 +70,16 @@ GlProgram::GlProgram(std::string_view name, const ShaderPieces& vertex, const Sh
   link(name, program_.get());
   glDetachShader(program_.get(), vertexShader.get());
   glDetachShader(program_.get(), fragmentShader.get());
+  locations_ = locationsIn(program_.get());
 }
 
 void GlProgram::use() const {
   glUseProgram(program_.get());
 }
 
-int GlProgram::location(const char* uniform) const {
-  return glGetUniformLocation(program_.get(), uniform);
+int GlProgram::location(std::string_view uniform) const {
+  const auto found = locations_.find(uniform);
+  return found == locations_.end() ? -1 : found->second;
 }
 
 void GlProgram::set(const char* uniform, int value) const {

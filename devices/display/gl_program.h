@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,8 +37,10 @@ class GlProgram {
   void set(const char* uniform, const glm::mat3& value) const;
 
  private:
-  [[nodiscard]] int location(const char* uniform) const;
+  [[nodiscard]] int location(std::string_view uniform) const;
+
   GlProgramName program_;
+  std::map<std::string, int, std::less<>> locations_;  // the driver need not be asked while drawing
 };
 
 }  // namespace pixelflex::devices

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "viewer/renderer/dither_tile.h"
 #include "viewer/renderer/one_to_one.h"
 #include "viewer/renderer/renderer_error.h"
 #include "viewer/renderer/textures.h"
@@ -173,6 +174,7 @@ void Output::setUniforms(const devices::GlProgram& program, const DesktopTexture
   program.set("desktop", static_cast<int>(kDesktopUnit));
   program.set("cursorImage", static_cast<int>(kCursorUnit));
   program.set("noise", static_cast<int>(kNoiseUnit));
+  program.set("noiseMask", kDitherExtent - 1);
   program.set("highestCode", variant_.tenBits ? 1023.0F : 255.0F);
   light_.setUniforms(program);
   program.set("cursorAt", cursor.topLeft());

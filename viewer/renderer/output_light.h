@@ -24,15 +24,15 @@ class OutputLight {
   void setUniforms(const devices::GlProgram& program) const;
 
  private:
-  void makeMask(const OutputPlan& plan);
-  void makeBlack(const OutputPlan& plan);
+  void makeMap(const OutputPlan& plan);
   void makeResponse(const OutputPlan& plan);
 
   glm::mat3 colour_{1};
   glm::vec3 largestBlack_{0};
-  glm::ivec3 responseEntries_{0, 0, 0};
-  devices::GlTexture mask_;  // times gain: one fetch for both
-  devices::GlTexture black_;
+  bool masked_ = false;
+  bool lifted_ = false;
+  devices::GlTexture map_;  // mask times gain, and black: one fetch for all
+  devices::GlBuffer responseEntries_;
   devices::GlTexture response_;
 };
 

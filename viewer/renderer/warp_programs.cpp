@@ -35,10 +35,9 @@ devices::GlProgram build(const WarpVariant& variant, const std::string& definiti
 }  // namespace
 
 const devices::GlProgram& WarpPrograms::get(const WarpVariant& variant) {
-  const auto definitions = definitionsOf(variant);
-  const auto found = programs_.find(definitions);
+  const auto found = programs_.find(variant);
   if (found != programs_.end()) return found->second;
-  return programs_.emplace(definitions, build(variant, definitions)).first->second;
+  return programs_.emplace(variant, build(variant, definitionsOf(variant))).first->second;
 }
 
 const devices::GlProgram& WarpPrograms::overlay() {
@@ -52,7 +51,7 @@ const devices::GlProgram& WarpPrograms::overlay() {
 devices::GlName WarpPrograms::ditherTile() {
   if (!ditherTile_) {
     static const devices::Image8 tile = makeDitherTile();
-    ditherTile_ = makeTexture(GL_RGB8, tile.size());
+    ditherTile_ = makeTexture(GL_RGBA8, tile.size());  // four bytes are one to fetch
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTextureSubImage2D(ditherTile_.get(), 0, 0, 0, tile.width(), tile.height(), GL_RGB, GL_UNSIGNED_BYTE,
                         tile.samples().data());

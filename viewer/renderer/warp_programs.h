@@ -25,6 +25,7 @@ struct WarpVariant {
   DesktopTransfer transfer = DesktopTransfer::kSrgb;
   Filter filter = Filter::kCatmullRom;
   bool filterLight = false;  // texels are decoded before they are filtered
+  auto operator<=>(const WarpVariant&) const = default;
 };
 
 /// Shaders compiled when first asked for, and the noise that they dither with. Needs its context current.
@@ -39,7 +40,7 @@ class WarpPrograms {
  private:
   devices::GlTexture ditherTile_;
   std::optional<devices::GlProgram> overlay_;
-  std::map<std::string, devices::GlProgram> programs_;  // by the definitions in front
+  std::map<WarpVariant, devices::GlProgram> programs_;
 };
 
 }  // namespace pixelflex::viewer
