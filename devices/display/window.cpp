@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "devices/display/glfw_error.h"
+#include "devices/display/part_copy.h"
 
 namespace pixelflex::devices {
 
@@ -22,7 +23,8 @@ struct Window::State {
   int unlockedCursor = GLFW_CURSOR_NORMAL;
   std::optional<glm::dvec2> lockedAt;  // set while the pointer is locked
   WindowHandlers handlers;
-  GlFramebuffer reader;  // present() reads the shown texture through it
+  GlFramebuffer reader;      // present() reads the shown texture through it
+  bool copiesParts = false;  // see there
 
   static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
 
@@ -93,6 +95,7 @@ Window::Window(EventLoop& loop, const WindowRequest& request, const Window* shar
   makeCurrent();
   glfwSwapInterval(request.paced ? 1 : 0);
   state_->reader = GlFramebuffer::create();
+  state_->copiesParts = copiesParts();
   if (request.visible) glfwShowWindow(state_->handle);
   // A window manager may have moved it while it appeared.
   if (request.visible && request.at) glfwSetWindowPos(state_->handle, request.at->x, request.at->y);
@@ -215,6 +218,24 @@ void Window::present(GlName texture, Size textureSize) {
   glBlitNamedFramebuffer(state_->reader.get(), 0, 0, 0, textureSize.width, textureSize.height, 0, window.height,
                          window.width, 0, GL_COLOR_BUFFER_BIT, window == textureSize ? GL_NEAREST : GL_LINEAR);
   swap();
+}
+
+void Window::present(GlName texture, Size textureSize, std::span<const Part> parts) {
+  std::int64_t area = 0;
+  for (const auto& part : parts) area += part.size.area();
+  const bool whole = !state_->copiesParts || size() != textureSize || 2 * area > textureSize.area();
+  if (whole) return present(texture, textureSize);
+  makeCurrent();
+  glNamedFramebufferTexture(state_->reader.get(), GL_COLOR_ATTACHMENT0, texture, 0);
+  glDisable(GL_SCISSOR_TEST);
+  for (const auto& [at, size] : parts) {
+    const int right = at.x + size.width;
+    const int below = at.y + size.height;
+    const int bottom = textureSize.height - below;
+    glBlitNamedFramebuffer(state_->reader.get(), 0, at.x, at.y, right, below, at.x, textureSize.height - at.y, right,
+                           bottom, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    copyPart(at.x, bottom, size.width, size.height);
+  }
 }
 
 void Window::swap() {

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "devices/display/event_loop.h"
@@ -24,6 +25,12 @@ struct WindowRequest {
   bool paced = false;            // present() waits for the monitor's refresh; at most one window of a wall
   bool showPointer = true;       // the system's own pointer, over this window
   int bitsPerColour = 8;         // wished for; what the display gives is told by Window::bitsPerColour()
+};
+
+/// A part of a picture, pixels.
+struct Part {
+  glm::ivec2 topLeft{0, 0};
+  Size size;
 };
 
 /// What happens to a window, called from EventLoop::wait() and poll() on the main thread. Each may be empty.
@@ -74,6 +81,9 @@ class Window final : public GlContext {
   /// Shows a GL_TEXTURE_2D whose row 0 is the top, filling the window, and swaps. The texture must be finished. Leaves
   /// this context current.
   void present(GlName texture, Size textureSize);
+  /// Shows only these parts of it anew where that is cheaper; the rest of the window shows the same texture as it was
+  /// presented before.
+  void present(GlName texture, Size textureSize, std::span<const Part> parts);
   /// Shows what was drawn into the window's own framebuffer.
   void swap();
 

@@ -7,6 +7,7 @@
 
 #include <X11/keysym.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <functional>
@@ -92,6 +93,35 @@ TEST_F(WindowTest, ABorderlessWindowIsWhereItWasAskedForAndShowsRowZeroOnTop) {
   EXPECT_EQ(server_.colourAt(349, 209), 0xFFFFFFU);
   EXPECT_EQ(server_.colourAt(149, 90), 0U);
   EXPECT_EQ(server_.colourAt(350, 209), 0U);
+  EXPECT_TRUE(log.take().empty());
+}
+
+// On a software driver, as here; others swap the whole window.
+TEST_F(WindowTest, OnlyThePartsOfAPictureThatChangedAreShownAnew) {
+  Window window(loop_, {.title = "p1", .size = {200, 120}, .at = glm::ivec2(150, 90), .borderless = true});
+  GlDebugLog log;
+  const auto before = textureOf(quarters({200, 120}));
+  ASSERT_TRUE(eventually([&] {
+    window.present(before.get(), {200, 120});
+    return server_.colourAt(150, 90) == 0xFF0000;
+  }));
+  Image8 grey({200, 120}, 3);
+  std::ranges::fill(grey.samples(), std::uint8_t{0x40});
+  grey.at(10, 20, 0) = 0x60;
+  grey.at(39, 24, 0) = 0x70;
+  const auto after = textureOf(grey);
+  const std::vector<Part> parts{{{10, 20}, {30, 5}}, {{199, 119}, {1, 1}}};
+  window.present(after.get(), {200, 120}, parts);
+  ASSERT_TRUE(eventually([&] { return server_.colourAt(349, 209) == 0x404040; }));
+  EXPECT_EQ(server_.colourAt(160, 110), 0x604040U);
+  EXPECT_EQ(server_.colourAt(189, 114), 0x704040U);
+  for (const auto& [x, y] : {std::pair{159, 110}, {160, 109}, {190, 114}, {189, 115}, {150, 90}}) {
+    EXPECT_EQ(server_.colourAt(x, y), 0xFF0000U) << x << ", " << y;
+  }
+  EXPECT_EQ(server_.colourAt(348, 209), 0xFFFFFFU);
+  const std::vector<Part> most{{{0, 0}, {200, 100}}};
+  window.present(after.get(), {200, 120}, most);
+  EXPECT_TRUE(eventually([&] { return server_.colourAt(348, 209) == 0x404040; }));
   EXPECT_TRUE(log.take().empty());
 }
 

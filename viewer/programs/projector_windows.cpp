@@ -108,7 +108,7 @@ void ProjectorWindows::pace() {
 
 void ProjectorWindows::present(std::span<const std::size_t> outputs) {
   for (auto projector = windows_.rbegin(); projector != windows_.rend(); ++projector) {
-    if (std::ranges::find(outputs, projector->output) != outputs.end()) present(*projector);
+    if (std::ranges::find(outputs, projector->output) != outputs.end()) presentDrawn(*projector);
   }
 }
 
@@ -116,6 +116,17 @@ void ProjectorWindows::present(const Projector& projector) {
   auto& renderer = view_.renderer();
   if (!projector.shown || projector.output >= renderer.outputCount()) return;
   projector.window->present(renderer.outputTexture(projector.output), renderer.outputResolution(projector.output));
+}
+
+void ProjectorWindows::presentDrawn(const Projector& projector) {
+  auto& renderer = view_.renderer();
+  if (!projector.shown || projector.output >= renderer.outputCount()) return;
+  std::vector<devices::Part> parts;
+  for (const auto& box : renderer.outputDrawn(projector.output).boxes()) {
+    parts.push_back({{box.left, box.top}, {box.width(), box.height()}});
+  }
+  projector.window->present(renderer.outputTexture(projector.output), renderer.outputResolution(projector.output),
+                            parts);
 }
 
 bool ProjectorWindows::anyShown() const {

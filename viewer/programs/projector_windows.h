@@ -48,6 +48,8 @@ class ProjectorWindows {
   void open(std::size_t index, const devices::Window& share, Input& input, int depth);
   void place(Projector& projector, const devices::Monitor* monitor);
   void present(const Projector& projector);
+  /// What the renderer has drawn last.
+  void presentDrawn(const Projector& projector);
   void pace();
 
   devices::EventLoop& loop_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "viewer/renderer/dither_tile.h"
 #include "viewer/renderer/one_to_one.h"
@@ -148,6 +149,7 @@ std::uint64_t Output::draw(DesktopTexture& desktop, const Cursor& cursor, WarpPr
     pixels += static_cast<std::uint64_t>(box.area());
   }
   for (const auto& box : marked_.boxes()) overlay_.draw(box, programs);
+  std::swap(drawn_, marked_);
   marked_.clear();
   return pixels;
 }

@@ -31,6 +31,8 @@ class Output {
   void mark(const Box& desktopBox);
   void markAll();
   [[nodiscard]] bool marked() const { return !marked_.empty() || !stale_.empty(); }
+  /// What the last draw() has drawn.
+  [[nodiscard]] const Region& drawn() const { return drawn_; }
 
   /// See FrameOverlay: what lies over the frame.
   void setPanel(const devices::Image8& panel) { overlay_.setPanel(panel, stale_); }
@@ -76,6 +78,7 @@ class Output {
   MeshFootprint footprint_;
   Region marked_;
   Region stale_;  // marked because of the overlay alone
+  Region drawn_;
   FrameOverlay overlay_;
   devices::GlTexture frame_;
   devices::GlFramebuffer framebuffer_;

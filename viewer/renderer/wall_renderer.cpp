@@ -193,6 +193,10 @@ devices::Size WallRenderer::outputResolution(std::size_t output) const {
   return outputs_.at(output).resolution();
 }
 
+const Region& WallRenderer::outputDrawn(std::size_t output) const {
+  return outputs_.at(output).drawn();
+}
+
 devices::GlName WallRenderer::outputTexture(std::size_t output) const {
   return outputs_.at(output).texture();
 }

@@ -83,6 +83,8 @@ class WallRenderer {
   /// Numbers are those of the plans.
   [[nodiscard]] const std::string& outputName(std::size_t output) const;
   [[nodiscard]] devices::Size outputResolution(std::size_t output) const;
+  /// The parts that the last draw() has drawn again, in pixels of the frame.
+  [[nodiscard]] const Region& outputDrawn(std::size_t output) const;
   /// The frame as GL_TEXTURE_2D with row 0 at the top, for a window or the room view; valid until setPlans.
   [[nodiscard]] devices::GlName outputTexture(std::size_t output) const;
   /// The frame as drawn last, red, green, blue, top row first.
