@@ -38,7 +38,12 @@ target_link_libraries(latency_bench PRIVATE pixelflex_options pixelflex_test_sup
   pixelflex_x11source pixelflex_renderer pixelflex_store CLI11::CLI11 fmt::fmt X11::X11 PkgConfig::EPOXY)
 target_compile_definitions(latency_bench PRIVATE PIXELFLEX_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
 add_dependencies(latency_bench pixelflex-new pixelflex-view)
-set_target_properties(calibrate_bench geometry_bench day_bench decode_bench latency_bench reconnect_bench redraw_bench scene_client
+add_executable(viewer_bench bench/viewer_bench.cpp bench/desktop_client.cpp bench/desktop_client.h bench/thread_times.cpp bench/thread_times.h)
+target_link_libraries(viewer_bench PRIVATE pixelflex_options pixelflex_test_calibration pixelflex_test_support
+  pixelflex_tiles CLI11::CLI11 fmt::fmt X11::X11)
+target_compile_definitions(viewer_bench PRIVATE PIXELFLEX_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+add_dependencies(viewer_bench pixelflex-new pixelflex-view)
+set_target_properties(viewer_bench calibrate_bench geometry_bench day_bench decode_bench latency_bench reconnect_bench redraw_bench scene_client
   PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
 
 add_test(NAME calibrate_bench COMMAND calibrate_bench --tiny)
@@ -47,7 +52,8 @@ add_test(NAME geometry_bench COMMAND geometry_bench "--benchmark_filter=/(768|2)
 add_test(NAME day_bench COMMAND day_bench --updates 4000 --resize-every 200 --most-growth 5)
 add_test(NAME decode_bench COMMAND decode_bench --width 800 --height 600 --record 0.5 --passes 1)
 add_test(NAME latency_bench COMMAND latency_bench --width 800 --height 600 --rounds 1 --updates 30)
+add_test(NAME viewer_bench COMMAND viewer_bench --tiny --starts 1 --seconds 0.5)
 add_test(NAME redraw_bench COMMAND redraw_bench --rounds 1 --tiny)
 add_test(NAME reconnect_bench COMMAND reconnect_bench --returns 2)
-set_tests_properties(calibrate_bench geometry_bench day_bench decode_bench latency_bench redraw_bench reconnect_bench
+set_tests_properties(viewer_bench calibrate_bench geometry_bench day_bench decode_bench latency_bench redraw_bench reconnect_bench
   PROPERTIES LABELS bench TIMEOUT 180)
