@@ -14,8 +14,8 @@ pixelflex_test(pan_tilt_test LABEL unit
   LINK pixelflex_device_host pixelflex_pan_tilt)
 
 pixelflex_test(projector_control_test LABEL unit
-  SOURCES unit/projector_drivers_test.cpp unit/projector_faults_test.cpp unit/projector_vectors_test.cpp support_devices/projector_bench.h
-  LINK pixelflex_device_host pixelflex_projector_control)
+  SOURCES unit/device_garbage_test.cpp unit/projector_drivers_test.cpp unit/projector_faults_test.cpp unit/projector_vectors_test.cpp support_devices/projector_bench.h
+  LINK pixelflex_device_host pixelflex_projector_control pixelflex_device_support)
 
 # Through programs of others, and as users type it.
 pixelflex_test(device_ladder_test LABEL e2e

@@ -28,7 +28,7 @@ std::unique_ptr<devices::SimulatedDevice> simulatorOf(const WallDevice& device, 
 }
 
 devices::LineAddress placeOf(const WallDevice& device) {
-  const auto address = devices::parseLineAddress(device.line.at);
+  auto address = devices::parseLineAddress(device.line.at);
   const bool ours = address.host == "127.0.0.1" || address.host == "::1" || address.host == "localhost";
   if (address.kind == LineKind::kSerial || (address.kind == LineKind::kTcp && ours)) return address;
   throw std::runtime_error(

@@ -42,7 +42,7 @@ PresetDevice readDevice(const Node& node) {
 
 /// Of presets/ alone, so that no file leads out of it.
 std::string readKept(const Node& node) {
-  const std::string kept = readText(node, kMaxName);
+  std::string kept = readText(node, kMaxName);
   if (!kept.starts_with("presets/calibration-") || kept.find("..") != std::string::npos) {
     node.problem("this is no copy of a calibration that preset has made");
   }

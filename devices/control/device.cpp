@@ -78,11 +78,11 @@ void Device::act(std::string_view action, const Progress& progress) {
 }
 
 void Device::doNudge(const SettingInfo& /*setting*/, double /*by*/, const Progress& /*progress*/) {
-  assert(!"a device with settings to nudge says how");
+  assert(false);  // a device with settings to nudge says how
 }
 
 void Device::doAct(std::string_view /*action*/, const Progress& /*progress*/) {
-  assert(!"a device with actions says how");
+  assert(false);  // a device with actions says how
 }
 
 void Device::doWriteAll(const std::vector<std::pair<SettingInfo, SettingValue>>& values, const Progress& progress) {

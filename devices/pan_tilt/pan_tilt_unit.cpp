@@ -56,13 +56,7 @@ PanTiltUnit::PanTiltUnit(LineLoop& loop, const LineAddress& address, const std::
     : name_(name), line_(loop, address, optionsOf(name)) {}
 
 PanTiltUnit::~PanTiltUnit() {
-  if (moving_) {
-    try {
-      halt();
-    } catch (const LineError&) {
-      // The line is dead: nothing more can be said to the unit.
-    }
-  }
+  if (moving_) haltQuietly();
   if (!line_.isConnected() || line_.session() != readySession_) return;
   if (foundVerbose_) say("FV");
   if (foundEcho_) say("EE");
@@ -206,7 +200,7 @@ void PanTiltUnit::checkTarget(PanTiltAxis axis, std::optional<int> target) {
 }
 
 void PanTiltUnit::moveTo(std::optional<int> pan, std::optional<int> tilt, const Progress& progress) {
-  const int halts = halts_;
+  haltsBefore_ = halts_;
   makeReady();
   checkTarget(PanTiltAxis::kPan, pan);
   checkTarget(PanTiltAxis::kTilt, tilt);
@@ -215,50 +209,67 @@ void PanTiltUnit::moveTo(std::optional<int> pan, std::optional<int> tilt, const 
   try {
     if (pan) ask(command(PanTiltAxis::kPan, 'P', *pan));
     if (tilt) ask(command(PanTiltAxis::kTilt, 'P', *tilt));
-    follow(pan, tilt, progress);
-    moving_ = false;
-  } catch (...) {
-    // What was sent before may have arrived; and if somebody has halted it, once more does no harm.
-    if (halts_ == halts) {
-      try {
-        halt();
-      } catch (const LineError&) {
-        // The first error says more.
-      }
-    }
+    follow({pan, tilt}, progress);
+  } catch (const std::runtime_error&) {
+    // Somebody else's halt is the reason, whatever became of the last question.
+    if (halts_ != haltsBefore_) complain("halted");
+    haltQuietly();
     throw;
+  }
+  if (halts_ != haltsBefore_) complain("halted");
+  moving_ = false;
+}
+
+/// What was sent before may have arrived. When that fails as well, the first error says more.
+void PanTiltUnit::haltQuietly() noexcept {
+  try {
+    halt();
+  } catch (const std::runtime_error&) {
+    // The unit is out of reach.
   }
 }
 
-void PanTiltUnit::follow(std::optional<int> pan, std::optional<int> tilt, const Progress& progress) {
-  const int halts = halts_;
-  const auto along = [this](PanTiltAxis axis, std::optional<int> target) { return target ? position(axis) : 0; };
+/// Where the axes that move are; nothing when a reply got lost, as one may on a long cable.
+std::optional<PanTiltUnit::Places> PanTiltUnit::look(const Places& target, int& lost) {
+  try {
+    Places now;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (target[i]) now[i] = position(static_cast<PanTiltAxis>(i));
+    }
+    lost = 0;
+    return now;
+  } catch (const LineError& error) {
+    if (error.failure() != LineFailure::kSilent || ++lost >= kLostPolls) throw;
+    return std::nullopt;
+  }
+}
+
+void PanTiltUnit::complainOfStops() const {
+  if (panStops_ + tiltStops_ == 0) return;
+  const std::string axis = wordOf(panStops_ > 0 ? PanTiltAxis::kPan : PanTiltAxis::kTilt);
+  complain(axis + " ran into its stop: its counts are wrong now, reset it");
+}
+
+void PanTiltUnit::complainOfStall(const Places& now, const Places& target) const {
+  const std::size_t axis = now[0] != target[0] ? 0 : 1;
+  complain(wordOf(static_cast<PanTiltAxis>(axis)) + " stays at " + std::to_string(now[axis].value_or(0)) +
+           " counts instead of going to " + std::to_string(target[axis].value_or(0)) + ": is it blocked?");
+}
+
+void PanTiltUnit::follow(const Places& target, const Progress& progress) {
   auto lastProgress = Clock::now();
-  std::pair<int, int> last{};
+  Places last;
   for (int lost = 0; true;) {
-    if (halts_ != halts) complain("halted");
-    if (progress.stop.stop_requested()) complain("stopped on request");
-    std::pair<int, int> now;
-    try {
-      now = {along(PanTiltAxis::kPan, pan), along(PanTiltAxis::kTilt, tilt)};
-      lost = 0;
-    } catch (const LineError& error) {
-      if (halts_ != halts) complain("halted");
-      if (error.failure() != LineFailure::kSilent || ++lost >= kLostPolls) throw;
-      continue;
-    }
-    if (panStops_ + tiltStops_ > 0) {
-      complain(std::string(panStops_ > 0 ? "pan" : "tilt") + " ran into its stop: its counts are wrong now, reset it");
-    }
-    if (now.first == pan.value_or(0) && now.second == tilt.value_or(0)) return;
+    if (progress.stop.stop_requested() || halts_ != haltsBefore_) complain("stopped on request");
+    const auto now = look(target, lost);
+    if (!now) continue;
+    complainOfStops();
+    if (*now == target) return;
     const auto time = Clock::now();
-    if (std::exchange(last, now) != now) lastProgress = time;
-    if (time - lastProgress > kStalled) {
-      const bool first = pan && now.first != *pan;
-      complain(std::string(first ? "pan" : "tilt") + " stays at " + std::to_string(first ? now.first : now.second) +
-               " counts instead of going to " + std::to_string(first ? *pan : *tilt) + ": is it blocked?");
-    }
-    const int left = std::abs(pan.value_or(0) - now.first) + std::abs(tilt.value_or(0) - now.second);
+    if (std::exchange(last, *now) != *now) lastProgress = time;
+    if (time - lastProgress > kStalled) complainOfStall(*now, target);
+    int left = 0;
+    for (std::size_t i = 0; i < target.size(); ++i) left += std::abs(target[i].value_or(0) - (*now)[i].value_or(0));
     progress.tell(std::to_string(left) + " counts to go");
     std::this_thread::sleep_for(kPoll);
   }

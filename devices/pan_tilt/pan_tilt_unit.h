@@ -65,6 +65,8 @@ class PanTiltUnit {
   void halt();
 
  private:
+  using Places = std::array<std::optional<int>, 2>;  // counts; none: that axis stays
+
   void makeReady();
   void learnModes();
   void readMotor(PanTiltAxis axis);
@@ -74,7 +76,11 @@ class PanTiltUnit {
   double askReal(const std::string& command);
   void say(const std::string& command) noexcept;
   void checkTarget(PanTiltAxis axis, std::optional<int> target);
-  void follow(std::optional<int> pan, std::optional<int> tilt, const Progress& progress);
+  [[nodiscard]] std::optional<Places> look(const Places& target, int& lost);
+  void follow(const Places& target, const Progress& progress);
+  void haltQuietly() noexcept;
+  void complainOfStops() const;
+  void complainOfStall(const Places& now, const Places& target) const;
   [[noreturn]] void complain(const std::string& what) const;
 
   static constexpr std::chrono::milliseconds kUsualTimeout{500};
@@ -90,6 +96,7 @@ class PanTiltUnit {
   int tiltStops_ = 0;
   std::atomic<bool> moving_ = false;
   std::atomic<int> halts_ = 0;
+  int haltsBefore_ = 0;  // the move that is under way
 };
 
 }  // namespace pixelflex::devices

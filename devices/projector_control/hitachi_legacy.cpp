@@ -130,17 +130,14 @@ class HitachiLegacy : public ProjectorDriver {
     if (bytes.ends_with("pp")) {
       complain("it cannot read us and has fallen back to 1200 baud, 7N1: set both to the same speed");
     }
-    const auto at = bytes.rfind(static_cast<char>(code), bytes.size() - 1);
-    std::size_t begin = bytes.size();
+    // What came before the reply is not part of it.
     for (std::size_t i = 0; i + 1 < bytes.size(); ++i) {
       const auto first = static_cast<Byte>(bytes[i]);
-      if (first < 0x20 && static_cast<Byte>(bytes[i + 1]) == code && i + 2 + (first & 15U) == bytes.size()) {
-        begin = i;
-        break;
-      }
+      if (first >= 0x20 || static_cast<Byte>(bytes[i + 1]) != code || i + 2 + (first & 15U) != bytes.size()) continue;
+      const bool tells = first > 0x10;  // an error begins with 0, and 10h has no data
+      return tells ? std::optional<int>(static_cast<Byte>(bytes.back())) : std::nullopt;
     }
-    if (at == std::string::npos || begin == bytes.size() || static_cast<Byte>(bytes[begin]) < 0x10) return std::nullopt;
-    return static_cast<Byte>(bytes.back());
+    return std::nullopt;
   }
 
   bool has(const Item& item) { return valueOf(askTwice(question(item.code)), item.code).has_value(); }

@@ -79,8 +79,9 @@ class Infocus : public ProjectorDriver {
     if (item == kItems.end()) return std::nullopt;
     auto known = known_.find(item->name);
     if (known == known_.end()) known = known_.emplace(item->name, question(item->command)).first;
-    if (!known->second) return std::nullopt;
-    return describe(*item, *known->second);
+    const std::optional<Answer>& answer = known->second;
+    if (!answer) return std::nullopt;
+    return describe(*item, *answer);
   }
 
   SettingValue doRead(const SettingInfo& setting) override {
