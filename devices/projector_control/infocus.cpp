@@ -113,6 +113,8 @@ class Infocus : public ProjectorDriver {
       say("ZOM", steps > 0 ? 1 : 0);
       progress.tell("zoom " + std::to_string(left) + " steps to go");
     }
+    // Steps are not answered: this says that it still listens.
+    (void)get("ZOM");
   }
 
  private:
