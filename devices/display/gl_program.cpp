@@ -106,5 +106,8 @@ void GlProgram::set(const char* uniform, glm::ivec3 value) const {
 void GlProgram::set(const char* uniform, const glm::mat3& value) const {
   glProgramUniformMatrix3fv(program_.get(), location(uniform), 1, GL_FALSE, &value[0][0]);
 }
+void GlProgram::set(const char* uniform, const glm::mat4& value) const {
+  glProgramUniformMatrix4fv(program_.get(), location(uniform), 1, GL_FALSE, &value[0][0]);
+}
 
 }  // namespace pixelflex::devices

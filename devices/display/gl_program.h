@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -35,6 +36,7 @@ class GlProgram {
   void set(const char* uniform, glm::ivec2 value) const;
   void set(const char* uniform, glm::ivec3 value) const;
   void set(const char* uniform, const glm::mat3& value) const;
+  void set(const char* uniform, const glm::mat4& value) const;
 
  private:
   [[nodiscard]] int location(std::string_view uniform) const;

@@ -79,6 +79,16 @@ void DesktopTexture::uploadBox(const Box& box, const std::byte* rows) {
   }
 }
 
+void DesktopTexture::copy(devices::GlName picture) {
+  for (const auto& part : layout_.cut(boxOf(layout_.desktop()))) {
+    const auto& from = part.inDesktop;
+    if (from != layout_.coverage(part.layer)) prepare(part.layer);
+    prepared_[static_cast<std::size_t>(part.layer)] = true;
+    glCopyImageSubData(picture, GL_TEXTURE_2D, 0, from.left, from.top, 0, texture_.get(), GL_TEXTURE_2D_ARRAY, 0,
+                       part.texel.x, part.texel.y, part.layer, from.width(), from.height(), 1);
+  }
+}
+
 void DesktopTexture::prepare(int layer) {
   const auto index = static_cast<std::size_t>(layer);
   if (prepared_[index]) return;

@@ -28,6 +28,9 @@ class DesktopTexture {
   /// out. Throws RendererError unless `pixels` has exactly the boxes' size.
   void upload(std::span<const Box> boxes, std::span<const std::byte> pixels);
 
+  /// The same of a whole desktop that is in a GL_TEXTURE_2D of this format, row 0 at the top.
+  void copy(devices::GlName picture);
+
   /// Must be called for a layer before a shader reads it: gives a layer that was never uploaded its black.
   void prepare(int layer);
 

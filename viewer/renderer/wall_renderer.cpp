@@ -111,6 +111,13 @@ void WallRenderer::uploadDesktop(const devices::ImageF& desktop) {
   markWhere(whole);
 }
 
+void WallRenderer::copyDesktop(devices::GlName picture) {
+  assert(desktop_);
+  context_.makeCurrent();
+  desktop_->copy(picture);
+  markWhere(boxOf(desktop_->layout().desktop()));
+}
+
 template <class Change>
 void WallRenderer::changeCursor(const Change& change) {
   const auto before = cursor_.box();

@@ -54,6 +54,10 @@ class WallRenderer {
   /// For measurements: a whole desktop of four floats a pixel.
   void uploadDesktop(const devices::ImageF& desktop);
 
+  /// A whole desktop that was drawn on the GPU: GL_TEXTURE_2D of its size, RGBA8 (RGBA32F for measurements), row 0 at
+  /// the top. It must be finished, and is not needed afterwards.
+  void copyDesktop(devices::GlName picture);
+
   /// The pointer, drawn on top of the desktop: four channels, colour not multiplied by alpha; an empty image hides it.
   void setCursor(const devices::Image8& image, glm::ivec2 hotspot);
   /// To a desktop pixel.

@@ -1,0 +1,142 @@
+// pixelflex model WALL FILE...: 3D models on the wall, in one pass for each projector.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "calib/store/store.h"
+#include "viewer/model/scene_file.h"
+#include "viewer/programs/model_headless.h"
+#include "viewer/programs/model_options.h"
+
+namespace pixelflex::viewer {
+namespace {
+
+const std::map<std::string, Features> kFeatures{{"all", Features::kAll}, {"corners", Features::kCorners}};
+const std::map<std::string, StereoPicture> kStereo{
+    {"off", StereoPicture::kOff}, {"side-by-side", StereoPicture::kSideBySide}, {"anaglyph", StereoPicture::kAnaglyph}};
+
+/// Options that are lists of numbers.
+struct Texts {
+  std::string view;
+  std::string eye;
+  std::string cut;
+  std::string lens = "none";
+};
+
+void addDrawing(CLI::App& app, ModelCommand& command, Texts& texts) {
+  app.add_option(
+         "--passes", command.draw.passes,
+         "1: straight to each projector by a 4x4 matrix; 2: once for the desktop, which is then warped as exactly "
+         "as any desktop")
+      ->check(CLI::IsMember({1, 2}))
+      ->capture_default_str();
+  app.add_option("--fit", command.draw.features,
+                 "features that the matrix of one pass is fitted to: all, or the four corners; else all")
+      ->transform(CLI::CheckedTransformer(kFeatures))
+      ->option_text("all|corners");
+  app.add_option("--lens", texts.lens,
+                 "vertex: one pass makes up for the lens at each corner of a triangle, right where triangles are small")
+      ->check(CLI::IsMember({"none", "vertex"}))
+      ->capture_default_str();
+  app.add_option("--samples", command.draw.model.samples, "of each pixel, to smooth edges; 1: they are not")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+  app.add_option("--stereo", command.stereo,
+                 "desktop.png with both eyes' pictures; a wall with stack: left-right shows them itself")
+      ->transform(CLI::CheckedTransformer(kStereo))
+      ->option_text("off|side-by-side|anaglyph");
+}
+
+void addView(CLI::App& app, ModelCommand& command, Texts& texts) {
+  app.add_option(
+      "--view", texts.view,
+      "YAW,PITCH[,ZOOM[,X,Y,Z]]: degrees, times the size that fits, and the model's middle in shorter sides of "
+      "the display from its middle: right, up, towards the audience");
+  app.add_option(
+      "--eye", texts.eye,
+      "X,Y,Z of the viewer in wall units from the display's middle: right, up, towards the audience; the wall "
+      "is then a window. Else its middle, 1.2 times its longer side away");
+  app.add_option("--eye-distance", command.eyeDistance,
+                 "between the two eyes, wall units; else 1/40 of the way to the wall")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option(
+      "--cut", texts.cut,
+      "NX,NY,NZ,D: show only what lies before this plane, where NX*X + NY*Y + NZ*Z + D is positive, places as "
+      "for --eye");
+  app.add_flag("--wireframe", command.wireframe, "edges instead of surfaces");
+  app.add_flag("--axes", command.axes, "the model's axes: x red, y green, z blue");
+}
+
+void take(const Texts& texts, ModelCommand& command) {
+  command.draw.lensAtVertices = texts.lens == "vertex";
+  if (!texts.view.empty()) {
+    auto n = parseNumbers("--view", texts.view, 2, 6);
+    if (n.size() == 4 || n.size() == 5)
+      throw std::invalid_argument("--view " + texts.view + ": needs 2, 3 or 6 numbers");
+    n.resize(6, 0);
+    if (n[2] == 0) n[2] = 1;
+    if (n[2] < 0) throw std::invalid_argument("--view " + texts.view + ": the zoom must be positive");
+    command.pose = {.yaw = n[0], .pitch = n[1], .zoom = n[2], .shift = {n[3], n[4], n[5]}};
+  }
+  if (!texts.eye.empty()) {
+    const auto n = parseNumbers("--eye", texts.eye, 3, 3);
+    if (n[2] <= 0) throw std::invalid_argument("--eye " + texts.eye + ": Z must be positive: before the wall");
+    command.eye = glm::dvec3(n[0], n[1], n[2]);
+  }
+  if (!texts.cut.empty()) {
+    const auto n = parseNumbers("--cut", texts.cut, 4, 4);
+    command.cut = glm::dvec4(n[0], n[1], n[2], n[3]);
+  }
+}
+
+int show(const ModelCommand& command) {
+  const WallPlan wall(command.wall, calib::loadWall(command.wall), calib::loadCalibration(command.wall),
+                      command.projectors);
+  // First, while this process has no threads and no graphics that its readers would inherit.
+  Scene scene = loadScene(command.files);
+  for (const auto& warning : scene.warnings) fmt::print(stderr, "pixelflex-model: warning: {}\n", warning);
+  return runModelHeadless(command, wall, std::move(scene));
+}
+
+}  // namespace
+}  // namespace pixelflex::viewer
+
+int main(int argc, char** argv) {
+  pixelflex::viewer::ModelCommand command;
+  pixelflex::viewer::Texts texts;
+  CLI::App app{"Shows 3D models on the wall: OBJ, PLY, STL, glTF and what else Assimp reads.", "pixelflex-model"};
+  app.set_version_flag("--version", PIXELFLEX_VERSION);
+  app.add_option("WALL", command.wall, "the wall's folder")->required();
+  app.add_option("FILE", command.files, "models, in common coordinates")->required();
+  app.add_flag("--headless", command.headless, "draw without any window or X server (EGL)");
+  app.add_option("--screenshot", command.screenshot, "write DIR/<projector>.png and DIR/desktop.png and exit");
+  app.add_option("--turntable", command.turntable,
+                 "turn the model once in so many steps; with --screenshot, the pictures of step N go into DIR/N")
+      ->check(CLI::Range(1, 999));
+  app.add_option("--projectors", command.projectors, "only these projectors")->delimiter(',');
+  pixelflex::viewer::addDrawing(app, command, texts);
+  pixelflex::viewer::addView(app, command, texts);
+  try {
+    app.parse(argc, argv);
+    pixelflex::viewer::take(texts, command);
+    if (command.headless && !command.screenshot) throw std::invalid_argument("--headless needs --screenshot DIR");
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (const std::invalid_argument& error) {
+    fmt::print(stderr, "pixelflex-model: {}\n", error.what());
+    return 2;
+  }
+  try {
+    return pixelflex::viewer::show(command);
+  } catch (const std::exception& error) {
+    std::fflush(stdout);
+    fmt::print(stderr, "pixelflex-model: {}\n", error.what());
+    return 1;
+  }
+}

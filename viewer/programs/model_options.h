@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/model/model_view.h"
+#include "viewer/plan/model_wall.h"
+
+namespace pixelflex::viewer {
+
+/// How both eyes' pictures are shown on an ordinary screen.
+enum class StereoPicture { kOff, kSideBySide, kAnaglyph };
+
+/// The command line of `pixelflex model`.
+struct ModelCommand {
+  std::string wall;
+  std::vector<std::filesystem::path> files;
+  bool headless = false;
+  std::optional<std::string> screenshot;  // folder
+  int turntable = 0;                      // frames of one turn; 0: none
+  std::vector<std::string> projectors;    // empty: all
+  ModelWallOptions draw;
+  StereoPicture stereo = StereoPicture::kOff;
+  ModelPose pose;
+  std::optional<glm::dvec3> eye;  // window's frame; none: centred
+  std::optional<double> eyeDistance;
+  std::optional<glm::dvec4> cut;
+  bool wireframe = false;
+  bool axes = false;
+};
+
+/// Numbers with commas between, `least` to `most` of them. Throws std::invalid_argument, which names `option`.
+[[nodiscard]] std::vector<double> parseNumbers(const std::string& option, const std::string& text, std::size_t least,
+                                               std::size_t most);
+
+/// What the command line says of the view, before anybody moves it.
+[[nodiscard]] ModelView viewOf(const ModelCommand& command, const WallWindow& window);
+
+}  // namespace pixelflex::viewer
