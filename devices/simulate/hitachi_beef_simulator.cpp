@@ -118,26 +118,43 @@ class HitachiBeefSimulator : public ProjectorSimulator {
   }
 
   void change(int operation, int type, int value, Time now) {
-    int* number = numberOf(type);
-    auto* motor = motorOf(type);
     const int step = operation == kIncrement ? 1 : operation == kDecrement ? -1 : 0;
-    if (step != 0 && motor != nullptr) {
-      if (!suffers(Fault::kStuck)) motor->turn(step);
-    } else if (step != 0 && number != nullptr && type != 0x2000) {
-      // At its end it stays there and says so.
-      if (*number + step < 0 || *number + step > kMost) return refuse(now);
-      if (!suffers(Fault::kStuck)) *number += step;
-    } else if (operation == kSet && type == 0x2405) {
-      state().mute = value == 1;
-    } else if (operation == kSet && (type == 0x2000 || (type == 0x2407 && value < 3))) {
-      *number = value;
-    } else if (operation == kExecute && (type == 0x2408 || type == 0x2409)) {
-      auto& memory = state().lensMemory.at(static_cast<std::size_t>(memory_));
-      (type == 0x2408 ? state().lens : memory) = type == 0x2408 ? memory : state().lens;
-    } else {
-      return refuse(now);
-    }
+    const bool done = step != 0               ? take(type, step)
+                      : operation == kSet     ? set(type, value)
+                      : operation == kExecute ? execute(type)
+                                              : false;
+    if (!done) return refuse(now);
     confirm(now);
+  }
+
+  bool take(int type, int step) {
+    if (auto* motor = motorOf(type)) {
+      if (!suffers(Fault::kStuck)) motor->turn(step);
+      return true;
+    }
+    int* number = numberOf(type);
+    // At its end it stays there and says so.
+    if (number == nullptr || type == 0x2000 || type == 0x2407 || *number + step < 0 || *number + step > kMost)
+      return false;
+    if (!suffers(Fault::kStuck)) *number += step;
+    return true;
+  }
+
+  bool set(int type, int value) {
+    if (type == 0x2405) {
+      state().mute = value == 1;
+      return true;
+    }
+    if (type != 0x2000 && (type != 0x2407 || value > 2)) return false;
+    *numberOf(type) = value;
+    return true;
+  }
+
+  bool execute(int type) {
+    auto& memory = state().lensMemory.at(static_cast<std::size_t>(memory_));
+    if (type == 0x2408) state().lens = memory;
+    if (type == 0x2409) memory = state().lens;
+    return type == 0x2408 || type == 0x2409;
   }
 
   std::string typed_;

@@ -99,11 +99,18 @@ void PresetSession::collect() {
 
 calib::Preset PresetSession::capture() {
   forEach(well(), [](Member& member) {
+    const auto infos = member.device->settings();
     std::vector<std::string> wanted;
-    for (const auto& info : member.device->settings()) {
+    for (const auto& info : infos) {
       if (info.readable && info.settable && isKeptInPreset(info.name)) wanted.push_back(info.name);
     }
     member.read(wanted);
+    // A value that cannot be set, such as an input that the driver has no word for, cannot be restored either.
+    for (const auto& info : infos) {
+      const bool known = !info.words || info.name == "power" ||
+                         std::ranges::find(info.choices, member.values[info.name]) != info.choices.end();
+      if (!known) member.values.erase(info.name);
+    }
   });
   collect();
   calib::Preset preset{.saved = nowText(), .devices = {}, .calibration = calib::keepCalibration(folder_)};
@@ -182,18 +189,30 @@ void PresetSession::runStage(PresetStage stage, const std::vector<PresetStep>& p
 void PresetSession::restore(const calib::Preset& preset, const std::vector<PresetStep>& plan,
                             const std::function<void(PresetStage stage)>& atStage) {
   const std::vector<PresetOutcome> before = outcomes_;
+  std::string calibrationError;
   for (const PresetStage stage : kPresetStages) {
     const bool calibrates = stage == PresetStage::kCalibration && preset.calibration;
     const bool has = std::ranges::any_of(plan, [&](const PresetStep& step) { return step.stage == stage; });
     if (!has && !calibrates) continue;
     if (calibrates && options_.stop.stop_requested()) continue;
     atStage(stage);
-    if (calibrates) (void)calib::useCalibration(folder_, *preset.calibration);
+    if (calibrates) calibrationError = useCalibration(*preset.calibration);
     runStage(stage, plan);
   }
   collect();
   // Those that are no members.
   for (std::size_t i = members_.size(); i < before.size(); ++i) outcomes_.push_back(before[i]);
+  if (!calibrationError.empty()) outcomes_.push_back({"calibration", 0, calibrationError});
+}
+
+/// What went wrong; those that were muted are to be unmuted all the same.
+std::string PresetSession::useCalibration(const std::string& kept) const {
+  try {
+    (void)calib::useCalibration(folder_, kept);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
 }
 
 }  // namespace pixelflex::viewer

@@ -63,6 +63,7 @@ class PresetSession {
   /// Those without errors so far.
   [[nodiscard]] std::vector<Member*> well();
   void runStage(PresetStage stage, const std::vector<PresetStep>& plan);
+  [[nodiscard]] std::string useCalibration(const std::string& kept) const;
   void collect();
 
   std::filesystem::path folder_;
