@@ -14,7 +14,7 @@ namespace {
 
 /// What begins and ends messages of some protocol is more likely than by chance.
 std::string garbage(std::mt19937& random, std::size_t longest) {
-  static const std::string kTelling("\x06\x15\x1C\x1D\x1F\x10\x13pp\xBE\xEF*!PT()?:=\r\n %1POWR=PJLINK 2", 40);
+  static const std::string kTelling = "\x06\x15\x1C\x1D\x1F\x10\x13pp\xBE\xEF*!PT()?:=\r\n %1POWR=PJLINK 2";
   std::string bytes;
   for (std::size_t left = 1 + random() % longest; left > 0; --left) {
     bytes += random() % 2 == 0 ? kTelling[random() % kTelling.size()] : static_cast<char>(random() % 256);
