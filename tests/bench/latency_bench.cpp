@@ -112,7 +112,7 @@ class HeadlessWatch : public Watch {
     const std::string& folder = options.wall;
     const viewer::WallPlan wall(folder, calib::loadWall(folder), calib::loadCalibration(folder), {}, options.fit);
     devices::HeadlessContext context;
-    viewer::WallView view(options, wall, context, [this] { wake(); });
+    viewer::WallView view(options, wall, viewer::expectPlans(wall), context, [this] { wake(); });
     while (!stop.stop_requested()) {
       const auto step = view.step();
       view.shown();

@@ -73,6 +73,22 @@ void showFlat(OutputPlan& plan, const TileLayout& layout, const Placement& place
   plan.mesh = scaledScreen(layout, placement, screenAt, plan.resolution);
 }
 
+/// make(0) … make(count - 1), by two threads.
+template <class Make>
+auto inTwoThreads(std::size_t count, const Make& make) {
+  const auto every = [&](std::size_t first, std::size_t step) {
+    std::vector<decltype(make(first))> some;
+    for (std::size_t i = first; i < count; i += step) some.push_back(make(i));
+    return some;
+  };
+  auto odd = std::async(std::launch::async, every, 1, 2);
+  auto even = every(0, 2);
+  auto odds = odd.get();
+  decltype(even) all;
+  for (std::size_t i = 0; i < count; ++i) all.push_back(std::move((i % 2 == 0 ? even : odds)[i / 2]));
+  return all;
+}
+
 }  // namespace
 
 WallPlan::WallPlan(const std::filesystem::path& folder, calib::Wall wall, calib::Calibration calibration,
@@ -90,8 +106,8 @@ WallPlan::WallPlan(const std::filesystem::path& folder, calib::Wall wall, calib:
   for (const auto& projector : calibration_.projectors) {
     if (!only.empty() && std::ranges::find(only, projector.name) == only.end()) continue;
     projectors_.push_back(&projector);
-    light_.push_back(readLight(folder, projector));
   }
+  light_ = inTwoThreads(projectors_.size(), [&](std::size_t i) { return readLight(folder, *projectors_[i]); });
 }
 
 Placement WallPlan::placementOf(devices::Size desktop) const {
@@ -110,17 +126,7 @@ calib::Display WallPlan::displayOf(devices::Size desktop) const {
 }
 
 std::vector<OutputPlan> WallPlan::outputsFor(devices::Size desktop) const {
-  const auto every = [&](std::size_t first, std::size_t step) {
-    std::vector<OutputPlan> plans;
-    for (std::size_t i = first; i < projectors_.size(); i += step) plans.push_back(outputFor(i, desktop));
-    return plans;
-  };
-  auto odd = std::async(std::launch::async, every, 1, 2);
-  auto even = every(0, 2);
-  auto odds = odd.get();
-  std::vector<OutputPlan> plans;
-  for (std::size_t i = 0; i < projectors_.size(); ++i) plans.push_back(std::move((i % 2 == 0 ? even : odds)[i / 2]));
-  return plans;
+  return inTwoThreads(projectors_.size(), [&](std::size_t i) { return outputFor(i, desktop); });
 }
 
 OutputPlan WallPlan::outputFor(std::size_t index, devices::Size desktop) const {

@@ -16,7 +16,7 @@ namespace pixelflex::viewer {
 class WallPlan {
  public:
   /// `only`: names of the projectors to show; empty means all that are calibrated. Reads masks, gains, black maps and
-  /// responses from `folder`. Throws PlanError, StoreError, ImageError, ResponseError.
+  /// responses from `folder`, with two threads. Throws PlanError, StoreError, ImageError, ResponseError.
   WallPlan(const std::filesystem::path& folder, calib::Wall wall, calib::Calibration calibration,
            const std::vector<std::string>& only, const FitOptions& fit = {});
 

@@ -48,8 +48,9 @@ class Waker {
 int runHeadless(const ViewOptions& options, const WallPlan& wall) {
   Waker waker;
   const QuitSignal quit([&] { waker.wake(); });
+  ExpectedPlans plans = expectPlans(wall);
   devices::HeadlessContext context;
-  WallView view(options, wall, context, [&] { waker.wake(); });
+  WallView view(options, wall, std::move(plans), context, [&] { waker.wake(); });
   StatsPrinter stats(options);
   while (!quit.raised()) {
     stats.printIfDue(view);

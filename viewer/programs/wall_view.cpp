@@ -9,6 +9,7 @@
 #include "viewer/plan/overview.h"
 #include "viewer/plan/wall_screens.h"
 #include "viewer/programs/view_security.h"
+#include "viewer/renderer/dither_tile.h"
 #include "viewer/vnc/session.h"
 #include "viewer/x11/local_session.h"
 #include "viewer/x11/same_desktop.h"
@@ -51,10 +52,19 @@ std::optional<XDisplay> displayInstead(const ViewOptions& options) {
 
 }  // namespace
 
-WallView::WallView(const ViewOptions& options, const WallPlan& wall, devices::GlContext& context,
-                   const std::function<void()>& wake)
+ExpectedPlans expectPlans(const WallPlan& wall) {
+  return std::async(std::launch::async, [&wall] {
+    auto plans = wall.outputsFor(wall.desktop());
+    (void)makeDitherTile();  // takes a while the first time
+    return plans;
+  });
+}
+
+WallView::WallView(const ViewOptions& options, const WallPlan& wall, ExpectedPlans expected,
+                   devices::GlContext& context, const std::function<void()>& wake)
     : options_(options),
       wall_(wall),
+      expected_(std::move(expected)),
       renderer_(context, {.bitsPerColour = options.depth}),
       picture_(renderer_, options.whenLost),
       belt_(wake),
@@ -193,7 +203,9 @@ void WallView::adopt(devices::Size desktop) {
   if (desktop == desktop_) return;
   desktop_ = desktop;
   reloader_.setDesktop(desktop);
-  show(wall().outputsFor(desktop));
+  ExpectedPlans expected = std::exchange(expected_, {});
+  const bool asExpected = expected.valid() && desktop == wall_.desktop() && !reloaded_;
+  show(asExpected ? expected.get() : wall().outputsFor(desktop));
 }
 
 void WallView::show(std::vector<OutputPlan> plans) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -35,6 +36,10 @@ class PasswordNeeded : public ViewError {
   using ViewError::ViewError;
 };
 
+/// The plans for a wall's own desktop, made in the background meanwhile; `wall` must outlive it.
+using ExpectedPlans = std::future<std::vector<OutputPlan>>;
+[[nodiscard]] ExpectedPlans expectPlans(const WallPlan& wall);
+
 /// A server's desktop on a wall: source, belt and renderer held together on the render thread, which calls step()
 /// whenever it is woken.
 class WallView {
@@ -42,7 +47,7 @@ class WallView {
   using Clock = std::chrono::steady_clock;
 
   /// `wake` is called from any thread when there is something to do; all references must outlive this.
-  WallView(const ViewOptions& options, const WallPlan& wall, devices::GlContext& context,
+  WallView(const ViewOptions& options, const WallPlan& wall, ExpectedPlans expected, devices::GlContext& context,
            const std::function<void()>& wake);
 
   struct Step {
@@ -105,6 +110,7 @@ class WallView {
   const ViewOptions& options_;
   const WallPlan& wall_;
   std::shared_ptr<const WallPlan> reloaded_;
+  ExpectedPlans expected_;  // until the first desktop
   WallRenderer renderer_;
   LostPicture picture_;
   FrameBelt belt_;

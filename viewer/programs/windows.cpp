@@ -67,10 +67,11 @@ class WallWindows {
  public:
   WallWindows(const ViewOptions& options, const WallPlan& wall)
       : wall_(wall),
+        plans_(expectPlans(wall)),
         loop_(requireAnother(options, chooseDisplay(wall))),
         hidden_(loop_, {.title = "PixelFlex", .size = {16, 16}, .visible = false, .bitsPerColour = options.depth}),
         options_(atDepthOf(hidden_, options)),
-        view_(options_, wall, hidden_, [this] { loop_.wake(); }),
+        view_(options_, wall, std::move(plans_), hidden_, [this] { loop_.wake(); }),
         input_(view_, [this] { quit_ = true; }),
         projectors_(loop_, hidden_, view_, input_, options_.depth),
         watch_([this] {
@@ -227,6 +228,7 @@ class WallWindows {
   }
 
   const WallPlan& wall_;
+  ExpectedPlans plans_;  // begun before all that waits for the X server, then the view's
   devices::EventLoop loop_;
   devices::Window hidden_;
   ViewOptions options_;

@@ -111,9 +111,7 @@ std::vector<std::size_t> ranks() {
   return rank;
 }
 
-}  // namespace
-
-devices::Image8 makeDitherTile() {
+devices::Image8 made() {
   const auto rank = ranks();
   // The same noise at places far from one another.
   constexpr std::array<std::array<int, 2>, 3> kShifts{{{0, 0}, {23, 41}, {45, 19}}};
@@ -127,6 +125,13 @@ devices::Image8 makeDitherTile() {
       }
     }
   }
+  return tile;
+}
+
+}  // namespace
+
+devices::Image8 makeDitherTile() {
+  static const devices::Image8 tile = made();
   return tile;
 }
 

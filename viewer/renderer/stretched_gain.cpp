@@ -42,12 +42,17 @@ devices::ImageF stretchedGain(const devices::Image16& gain, const devices::Image
   devices::ImageF product(frame, 1);
   for (int y = 0; y < frame.height; ++y) {
     const auto& row = down[static_cast<std::size_t>(y)];
-    for (int x = 0; x < frame.width; ++x) {
-      const auto& column = across[static_cast<std::size_t>(x)];
-      const float upper = mixed(gain.at(column.first, row.first), gain.at(column.second, row.first), column.t);
-      const float lower = mixed(gain.at(column.first, row.second), gain.at(column.second, row.second), column.t);
-      const float weight = mask.empty() ? 1.0F : static_cast<float>(mask.at(x, y)) / kOne;
-      product.at(x, y) = (upper + row.t * (lower - upper)) / kOne * weight;
+    // Plain pointers: this is done for every pixel of the wall before its first picture.
+    const std::uint16_t* const above = gain.row(row.first).data();
+    const std::uint16_t* const below = gain.row(row.second).data();
+    const std::uint16_t* const weights = mask.empty() ? nullptr : mask.row(y).data();
+    float* to = product.row(y).data();
+    for (std::size_t x = 0; x < across.size(); ++x) {
+      const auto& [first, second, t] = across[x];
+      const float upper = mixed(above[first], above[second], t);
+      const float lower = mixed(below[first], below[second], t);
+      const float weight = weights == nullptr ? 1.0F : static_cast<float>(weights[x]) / kOne;
+      *to++ = (upper + row.t * (lower - upper)) / kOne * weight;
     }
   }
   return product;
