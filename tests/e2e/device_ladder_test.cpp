@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <thread>
 #include <tuple>
@@ -32,6 +33,10 @@ struct Serial {
   std::string setting;
   double number;
 };
+
+void PrintTo(const Serial& serial, std::ostream* stream) {
+  *stream << serial.driver;
+}
 
 /// Every serial driver, by every way: directly, through ser2net and through socat.
 class DeviceLadderTest : public ::testing::TestWithParam<std::tuple<Serial, Way>> {

@@ -154,6 +154,17 @@ TEST_F(PresetCliTest, ASignalHaltsAndUnmutes) {
   EXPECT_FALSE(projector("p1.control").mute);
 }
 
+TEST_F(PresetCliTest, WithoutACameraNothingIsVerified) {
+  makeRoom(1, 20);
+  calibrate(1000);
+  ASSERT_EQ(preset({"save", "a"}).status, 0);
+  calibrate(2000);
+  const Output output = preset({"restore", "a", "--verify"});
+  EXPECT_EQ(output.status, 0);
+  EXPECT_THAT(output.text, HasSubstr("has no camera of its own: nothing was verified"));
+  EXPECT_EQ(greyInUse(), 1000);
+}
+
 TEST_F(PresetCliTest, SaysWhatIsWrong) {
   makeRoom(1, 20);
   EXPECT_THAT(preset({"restore", "x"}).text, HasSubstr("there is no preset of that name; none was saved yet"));

@@ -84,8 +84,18 @@ void printPlan(const std::vector<PresetStep>& plan, bool calibrates) {
   }
 }
 
+/// Whether there is one that takes photographs by itself.
+bool hasCamera(const std::string& folder) {
+  const calib::Wall wall = calib::loadWall(folder);
+  return !wall.isFlat() && wall.camera.source != "none" && wall.camera.source != "photos";
+}
+
 /// One photograph per projector, compared with the calibration, by the program that can.
 int verify(const std::string& wall) {
+  if (!hasCamera(wall)) {
+    fmt::print("this wall has no camera of its own: nothing was verified\n");
+    return 0;
+  }
   std::string program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "pixelflex-calibrate";
   std::string folder = wall;
   std::string check = "--check";
