@@ -88,6 +88,7 @@ TEST_F(PresetCliTest, WhatIsInPlaceTakesNoTime) {
   }
   EXPECT_EQ(greyInUse(), 1000);
   EXPECT_EQ(preset({"restore", "a", "--dry-run"}).text, "all is as a has it\n");
+  EXPECT_TRUE(preset({"restore", "a"}).text.starts_with("a: 0 settings changed, calibration as it was in 0."));
 }
 
 TEST_F(PresetCliTest, CalibrationsAreKeptOnceAndGoWithTheirPresets) {

@@ -190,8 +190,10 @@ void PresetSession::restore(const calib::Preset& preset, const std::vector<Prese
                             const std::function<void(PresetStage stage)>& atStage) {
   const std::vector<PresetOutcome> before = outcomes_;
   std::string calibrationError;
+  // Looked up first: a copy that is missing is said before anything is muted.
+  const bool differs = preset.calibration && !calib::isCalibrationInUse(folder_, *preset.calibration);
   for (const PresetStage stage : kPresetStages) {
-    const bool calibrates = stage == PresetStage::kCalibration && preset.calibration;
+    const bool calibrates = stage == PresetStage::kCalibration && differs;
     const bool has = std::ranges::any_of(plan, [&](const PresetStep& step) { return step.stage == stage; });
     if (!has && !calibrates) continue;
     if (calibrates && options_.stop.stop_requested()) continue;
