@@ -24,8 +24,8 @@ add_executable(decode_bench bench/decode_bench.cpp bench/replay_server.cpp bench
 target_link_libraries(decode_bench PRIVATE pixelflex_options pixelflex_test_support CLI11::CLI11 fmt::fmt)
 target_compile_definitions(decode_bench PRIVATE PIXELFLEX_SCENE_CLIENT="${CMAKE_BINARY_DIR}/tests/scene_client")
 add_dependencies(decode_bench scene_client)
-add_executable(redraw_bench bench/redraw_bench.cpp)
-target_link_libraries(redraw_bench PRIVATE pixelflex_options pixelflex_renderer pixelflex_reference CLI11::CLI11
+add_executable(redraw_bench bench/redraw_bench.cpp bench/curves.cpp bench/curves.h)
+target_link_libraries(redraw_bench PRIVATE pixelflex_options pixelflex_image pixelflex_renderer pixelflex_reference CLI11::CLI11
   fmt::fmt opencv_core opencv_imgproc PkgConfig::EPOXY)
 target_include_directories(redraw_bench SYSTEM PRIVATE ${OpenCV_INCLUDE_DIRS})
 # The headless viewer's own loop runs inside, so that its frame can be looked at.
@@ -53,7 +53,7 @@ add_test(NAME day_bench COMMAND day_bench --updates 4000 --resize-every 200 --mo
 add_test(NAME decode_bench COMMAND decode_bench --width 800 --height 600 --record 0.5 --passes 1)
 add_test(NAME latency_bench COMMAND latency_bench --width 800 --height 600 --rounds 1 --updates 30)
 add_test(NAME viewer_bench COMMAND viewer_bench --tiny --starts 1 --seconds 0.5)
-add_test(NAME redraw_bench COMMAND redraw_bench --rounds 1 --tiny)
+add_test(NAME redraw_bench COMMAND redraw_bench --rounds 1 --tiny --curves redraw-curves.svg)
 add_test(NAME reconnect_bench COMMAND reconnect_bench --returns 2)
 set_tests_properties(viewer_bench calibrate_bench geometry_bench day_bench decode_bench latency_bench redraw_bench reconnect_bench
   PROPERTIES LABELS bench TIMEOUT 180)

@@ -16,6 +16,7 @@
 
 #include "devices/display/gl_context.h"
 #include "devices/display/gl_program.h"
+#include "tests/bench/curves.h"
 #include "tests/gl/plans.h"
 #include "viewer/renderer/textures.h"
 #include "viewer/renderer/wall_renderer.h"
@@ -338,6 +339,59 @@ void againstOpenCv(int rounds) {
                     1e3 * times.first, 1e3 * times.second, 1 / times.second, times.first / times.second));
 }
 
+double timeOf(int rounds, const std::function<void()>& work) {
+  work();
+  std::vector<double> times;
+  for (int i = 0; i < rounds; ++i) times.push_back(secondsOf(work));
+  return median(times);
+}
+
+/// A square of so many pixels, or as much as the desktop holds.
+Box squareOf(Size desktop, double pixels) {
+  const int width = std::min(desktop.width, static_cast<int>(std::lround(std::sqrt(pixels))));
+  const int height = std::min(desktop.height, static_cast<int>(std::lround(pixels / width)));
+  return {0, 0, width, height};
+}
+
+void addPoint(Curve& curve, double across, double seconds) {
+  curve.points.emplace_back(across, seconds);
+  print("curve", fmt::format(R"("title": "{}", "at": {}, "us": {:.1f})", curve.title, across, 1e6 * seconds));
+}
+
+/// How what an update costs grows: upload, marking and drawing.
+std::vector<Curve> curves(int rounds, Size largest) {
+  Curve byArea{"one change, by its area", "changed pixels of the desktop", {}};
+  {
+    Stand stand(wallOf(4, 2, largest, viewer::Filter::kCatmullRom));
+    const auto most = static_cast<double>(largest.area());
+    for (double pixels = 1; pixels <= std::min(most, std::pow(2, 26)); pixels *= 4) {
+      const auto change = changeAt(largest, {squareOf(largest, pixels)}, 5);
+      addPoint(byArea, pixels, timeOf(rounds, [&] { stand.update(change); }));
+    }
+  }
+  Curve bySize{"64x64 pixels, by the desktop's size", "pixels of the desktop", {}};
+  for (Size desktop{1024, 512}; desktop.width <= largest.width; desktop = {2 * desktop.width, 2 * desktop.height}) {
+    Stand stand(wallOf(4, 2, desktop, viewer::Filter::kCatmullRom));
+    const auto change = changeAt(desktop, {{0, 0, 64, 64}}, 5);
+    addPoint(bySize, static_cast<double>(desktop.area()), timeOf(10 * rounds, [&] { stand.update(change); }));
+  }
+  Curve byCount{"64x64 pixels, by the number of projectors", "projectors", {}};
+  for (int columns = 1; columns <= 16; columns *= 2) {
+    const Size desktop{900 * columns, 700};
+    Stand stand(wallOf(columns, 1, desktop, viewer::Filter::kCatmullRom));
+    const auto change = changeAt(desktop, {{300, 300, 364, 364}}, 5);
+    addPoint(byCount, columns, timeOf(10 * rounds, [&] { stand.update(change); }));
+  }
+  Curve byMesh{"64x64 pixels, by the mesh", "triangles of a projector", {}};
+  for (int mesh = 5; mesh <= 160; mesh *= 2) {
+    const Size desktop{1200, 900};
+    Stand stand(wallOf(1, 1, desktop, viewer::Filter::kCatmullRom, mesh));
+    const auto change = changeAt(desktop, {{300, 300, 364, 364}}, 5);
+    addPoint(byMesh, 2.0 * mesh * mesh, timeOf(10 * rounds, [&] { stand.update(change); }));
+  }
+  return {byArea, bySize, byCount, byMesh};
+}
+
 }  // namespace
 }  // namespace pixelflex::testing
 
@@ -346,17 +400,22 @@ int main(int argc, char** argv) {
   int rounds = 15;
   std::vector<std::string> what{"corners", "change", "redraw", "everything"};
   bool tiny = false;
+  std::string picture;
   CLI::App app("What updates and redraws cost in the renderer. A line of JSON for each figure; medians.");
   app.add_option("--rounds", rounds)->check(CLI::Range(1, 10000));
   app.add_option("--what", what)->delimiter(',')->check(CLI::IsMember(what));
   app.add_flag("--tiny", tiny, "a small desktop, to see that it works");
+  app.add_option("--curves", picture,
+                 "an SVG file: how the cost of an update grows with what changed and what is there");
   CLI11_PARSE(app, argc, argv);
   const auto wanted = [&what](const char* name) { return std::ranges::find(what, name) != what.end(); };
   try {
     if (wanted("corners")) corners();
-    if (wanted("change")) smallChange(rounds, tiny ? Size{4096, 2048} : Size{16384, 8192});
+    const Size largest = tiny ? Size{4096, 2048} : Size{16384, 8192};
+    if (wanted("change")) smallChange(rounds, largest);
     if (wanted("redraw")) againstPlain(rounds);
     if (wanted("everything")) againstOpenCv(rounds);
+    if (!picture.empty()) drawCurves(curves(rounds, largest), picture);
   } catch (const std::exception& error) {
     fmt::print(stderr, "redraw_bench: {}\n", error.what());
     return 1;
