@@ -207,7 +207,7 @@ void measureSource(const Options& options) {
   }
 }
 
-/// What the software GL holds for the desktop: all of it is in main memory.
+/// What the software GL holds for the desktop.
 double textureMegabytes(devices::Size desktop) {
   const viewer::TileLayout layout(desktop);
   const devices::Size tile{std::min(viewer::kTileExtent, desktop.width + 2 * viewer::kTileApron),

@@ -1,6 +1,7 @@
 #include "viewer/programs/wall_view.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -206,6 +207,7 @@ void WallView::adopt(devices::Size desktop) {
   ExpectedPlans expected = std::exchange(expected_, {});
   const bool asExpected = expected.valid() && desktop == wall_.desktop() && !reloaded_;
   show(asExpected ? expected.get() : wall().outputsFor(desktop));
+  ::malloc_trim(0);  // meshes and maps are on the GPU now, and what making them took would stay for as long as we run
 }
 
 void WallView::show(std::vector<OutputPlan> plans) {

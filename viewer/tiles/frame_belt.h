@@ -35,7 +35,7 @@ class FrameBelt {
  public:
   static constexpr std::size_t kSlots = 3;
   /// Larger updates travel in several batches.
-  static constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
+  static constexpr std::size_t kMaxBytes = std::size_t{4} << 20;
 
   /// `wake` is called from the producer's thread after every publish and must be thread-safe.
   explicit FrameBelt(std::function<void()> wake);
