@@ -191,7 +191,8 @@ void ModelRenderer::drawFrame(Frame& frame) {
   glBindVertexArray(noVertices_.get());
   frame.light.bind();
   glBindFramebuffer(GL_FRAMEBUFFER, canvas.lightTarget.get());
-  if (frame.variant.mask && options_.correct) drawMask(frame);
+  const bool dark = frame.drawn.parts == 0 && !view_.axes;
+  if (frame.variant.mask && options_.correct && !dark) drawMask(frame);
   lookUp(frame, canvas);
 }
 
@@ -203,22 +204,28 @@ void ModelRenderer::drawScene(Frame& frame, const Canvas& canvas) {
   glClearBufferfv(GL_DEPTH, 0, &kFar);
   frame.drawn = {};
   if (!scene_) return;
-  const bool clip = options_.correct;
+  const glm::dmat4 inWindow = windowFromModel(view_.pose, bounds_, view_.window);
+  const glm::dvec3 middle(inWindow * glm::dvec4(bounds_.middle(), 1));
+  const double radius = radiusInWindow(view_.pose, bounds_, view_.window) * (view_.axes ? 1.3 : 1.0);
+  const glm::dmat4 onDesktop =
+      desktopFromWindow(view_.window, eyeOf(view_.viewer, frame.output.eye), middle, radius) * inWindow;
+  // What does not reach over the display's borders need not be held to them.
+  const bool clip = options_.correct && (view_.axes || !isInside(bounds_, onDesktop));
+  const auto& drawing = useModelProgram(frame, clip);
+  setMatrices(drawing, frame, onDesktop);
+  frame.drawn = options_.cull ? scene_->draw(drawing, onDesktop, frame.output.projectorFromDesktop * onDesktop)
+                              : scene_->drawAll(drawing);
+  if (view_.axes) axes_->drawAll(drawing);
+}
+
+const devices::GlProgram& ModelRenderer::useModelProgram(const Frame& frame, bool clip) {
   for (unsigned i = 0; i < 6; ++i) (clip ? glEnable : glDisable)(GL_CLIP_DISTANCE0 + i);
   (view_.cut ? glEnable : glDisable)(GL_CLIP_DISTANCE0 + 6);
   const auto& drawing = program(
       "model", fmt::format("#define LENS {:d}\n#define CLIP {:d}\n#define CUT {:d}\n#define MEASURE {:d}\n{}",
                            static_cast<bool>(frame.lens), clip, view_.cut.has_value(), options_.measure, kPlainLight));
   drawing.use();
-  const glm::dmat4 inWindow = windowFromModel(view_.pose, bounds_, view_.window);
-  const glm::dvec3 middle(inWindow * glm::dvec4(bounds_.middle(), 1));
-  const double radius = radiusInWindow(view_.pose, bounds_, view_.window) * (view_.axes ? 1.3 : 1.0);
-  const glm::dmat4 onDesktop =
-      desktopFromWindow(view_.window, eyeOf(view_.viewer, frame.output.eye), middle, radius) * inWindow;
-  setMatrices(drawing, frame, onDesktop);
-  frame.drawn =
-      clip ? scene_->draw(drawing, onDesktop, frame.output.projectorFromDesktop * onDesktop) : scene_->drawAll(drawing);
-  if (view_.axes) axes_->drawAll(drawing);
+  return drawing;
 }
 
 void ModelRenderer::setMatrices(const devices::GlProgram& drawing, const Frame& frame,

@@ -27,17 +27,8 @@ struct ModelOutput {
 struct ModelOptions {
   int samples = 4;       // of a pixel, at most; 1: edges are not smoothed
   bool measure = false;  // frames in RGBA32F: the place in the model that each pixel shows, alpha 1 where it is
-  bool correct = true;   // false, for comparison: neither culled nor clipped to the display, no mask
-};
-
-/// What is shown of the model.
-struct ModelView {
-  WallWindow window;
-  Viewer viewer;
-  ModelPose pose;
-  bool wireframe = false;
-  bool axes = false;
-  std::optional<glm::dvec4> cut;  // window's frame: shown where the product with (x, y, z, 1) is positive
+  bool cull = true;      // parts that a projector does not see are left out
+  bool correct = true;   // false, for comparison: neither held to the display nor masked
 };
 
 /// Draws a scene for every projector in one pass each: matrix stack, mask at the near plane, look-up. One thread, the
@@ -53,6 +44,8 @@ class ModelRenderer {
   /// Keeps no copy outside the graphics memory. Throws RendererError.
   void setScene(Scene scene);
   [[nodiscard]] const Bounds3& bounds() const { return bounds_; }
+  /// Of vertices and indices in graphics memory.
+  [[nodiscard]] std::size_t sceneBytes() const { return scene_ ? scene_->bytes() : 0; }
   /// Everything is drawn again.
   void setView(const ModelView& view);
 
@@ -96,6 +89,7 @@ class ModelRenderer {
   const devices::GlProgram& program(const std::string& name, const std::string& definitions);
   void drawFrame(Frame& frame);
   void drawScene(Frame& frame, const Canvas& canvas);
+  const devices::GlProgram& useModelProgram(const Frame& frame, bool clip);
   void setMatrices(const devices::GlProgram& program, const Frame& frame, const glm::dmat4& desktopFromModel) const;
   void drawMask(const Frame& frame);
   void lookUp(const Frame& frame, const Canvas& canvas);

@@ -3,6 +3,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <optional>
 
 #include "viewer/model/scene.h"
@@ -45,5 +46,15 @@ struct ModelPose {
 
 /// Half the diagonal of the bounds in the window's units.
 [[nodiscard]] double radiusInWindow(const ModelPose& pose, const Bounds3& bounds, const WallWindow& window);
+
+/// What is shown of the model.
+struct ModelView {
+  WallWindow window;
+  Viewer viewer;
+  ModelPose pose;
+  bool wireframe = false;
+  bool axes = false;
+  std::optional<glm::dvec4> cut;  // window's frame: shown where the product with (x, y, z, 1) is positive
+};
 
 }  // namespace pixelflex::viewer

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -51,15 +52,21 @@ void attribute(GLuint array, GLuint index, GLint size, GLenum type, bool normali
   glVertexArrayAttribBinding(array, index, 0);
 }
 
+std::array<glm::dvec4, 8> cornersIn(const Bounds3& bounds, const glm::dmat4& clipFromModel) {
+  std::array<glm::dvec4, 8> corners;
+  for (unsigned i = 0; i < corners.size(); ++i) {
+    const glm::dvec3 p((i & 1) != 0 ? bounds.high.x : bounds.low.x, (i & 2) != 0 ? bounds.high.y : bounds.low.y,
+                       (i & 4) != 0 ? bounds.high.z : bounds.low.z);
+    corners[i] = clipFromModel * glm::dvec4(p, 1);
+  }
+  return corners;
+}
+
 }  // namespace
 
 bool isOutside(const Bounds3& bounds, const glm::dmat4& clipFromModel, double slack) {
   std::array<int, 6> beyond{};
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec3 p((corner & 1) != 0 ? bounds.high.x : bounds.low.x,
-                       (corner & 2) != 0 ? bounds.high.y : bounds.low.y,
-                       (corner & 4) != 0 ? bounds.high.z : bounds.low.z);
-    const glm::dvec4 clip = clipFromModel * glm::dvec4(p, 1);
+  for (const auto& clip : cornersIn(bounds, clipFromModel)) {
     for (int axis = 0; axis < 3; ++axis) {
       const double most = slack * clip.w;
       if (clip[axis] < -most) ++beyond[static_cast<std::size_t>(2 * axis)];
@@ -67,6 +74,12 @@ bool isOutside(const Bounds3& bounds, const glm::dmat4& clipFromModel, double sl
     }
   }
   return std::ranges::find(beyond, 8) != beyond.end();
+}
+
+bool isInside(const Bounds3& bounds, const glm::dmat4& clipFromModel) {
+  return std::ranges::all_of(cornersIn(bounds, clipFromModel), [](const glm::dvec4& clip) {
+    return std::max({std::abs(clip.x), std::abs(clip.y), std::abs(clip.z)}) <= clip.w;
+  });
 }
 
 SceneBuffers::SceneBuffers(Scene scene)

@@ -50,5 +50,7 @@ class SceneBuffers {
 
 /// Whether a box, seen through a matrix, lies wholly beyond one side of the clip volume.
 [[nodiscard]] bool isOutside(const Bounds3& bounds, const glm::dmat4& clipFromModel, double slack);
+/// Whether it lies wholly within.
+[[nodiscard]] bool isInside(const Bounds3& bounds, const glm::dmat4& clipFromModel);
 
 }  // namespace pixelflex::viewer

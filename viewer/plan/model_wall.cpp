@@ -68,6 +68,7 @@ void ModelWall::makeWarps(devices::GlContext& context) {
 bool ModelWall::draw() {
   if (!scene_->needsDraw()) return false;
   scene_->draw();
+  drawn_ = true;
   for (auto& warp : warps_) {
     warp.renderer->copyDesktop(scene_->outputTexture(warp.desktop));
     warp.renderer->draw();

@@ -36,6 +36,8 @@ class ModelWall {
 
   /// Draws what has changed; false when nothing had.
   bool draw();
+  /// There is a picture.
+  [[nodiscard]] bool drawn() const { return drawn_; }
 
   /// Numbers are those of WallPlan::projectors().
   [[nodiscard]] std::size_t projectorCount() const { return places_.size(); }
@@ -83,6 +85,7 @@ class ModelWall {
   std::unique_ptr<ModelRenderer> scene_;
   std::vector<Warp> warps_;
   std::vector<Place> places_;
+  bool drawn_ = false;
 };
 
 }  // namespace pixelflex::viewer

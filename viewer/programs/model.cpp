@@ -13,13 +13,14 @@
 #include "viewer/model/scene_file.h"
 #include "viewer/programs/model_headless.h"
 #include "viewer/programs/model_options.h"
+#include "viewer/programs/model_windows.h"
 
 namespace pixelflex::viewer {
 namespace {
 
 const std::map<std::string, Features> kFeatures{{"all", Features::kAll}, {"corners", Features::kCorners}};
-const std::map<std::string, StereoPicture> kStereo{
-    {"off", StereoPicture::kOff}, {"side-by-side", StereoPicture::kSideBySide}, {"anaglyph", StereoPicture::kAnaglyph}};
+const std::map<std::string, StereoKind> kStereo{
+    {"off", StereoKind::kOff}, {"side-by-side", StereoKind::kSideBySide}, {"anaglyph", StereoKind::kAnaglyph}};
 
 /// Options that are lists of numbers.
 struct Texts {
@@ -101,7 +102,8 @@ int show(const ModelCommand& command) {
   // First, while this process has no threads and no graphics that its readers would inherit.
   Scene scene = loadScene(command.files);
   for (const auto& warning : scene.warnings) fmt::print(stderr, "pixelflex-model: warning: {}\n", warning);
-  return runModelHeadless(command, wall, std::move(scene));
+  return command.screenshot ? runModelHeadless(command, wall, std::move(scene))
+                            : runModelWindows(command, wall, std::move(scene));
 }
 
 }  // namespace
@@ -112,6 +114,11 @@ int main(int argc, char** argv) {
   pixelflex::viewer::Texts texts;
   CLI::App app{"Shows 3D models on the wall: OBJ, PLY, STL, glTF and what else Assimp reads.", "pixelflex-model"};
   app.set_version_flag("--version", PIXELFLEX_VERSION);
+  app.footer(
+      "In its windows: drag turns the model, with the right button or Shift it moves it, the wheel zooms; w s a d e q "
+      "fly, "
+      "arrows turn, f fits, Home goes back, l lines, x axes, c cuts (and [ ] move the cut), Escape or Ctrl+Alt+Q "
+      "ends.");
   app.add_option("WALL", command.wall, "the wall's folder")->required();
   app.add_option("FILE", command.files, "models, in common coordinates")->required();
   app.add_flag("--headless", command.headless, "draw without any window or X server (EGL)");
@@ -119,13 +126,18 @@ int main(int argc, char** argv) {
   app.add_option("--turntable", command.turntable,
                  "turn the model once in so many steps; with --screenshot, the pictures of step N go into DIR/N")
       ->check(CLI::Range(1, 999));
+  app.add_flag("--preview", command.preview, "a window of the whole desktop, also beside the wall");
+  app.add_flag("--track", command.track,
+               "the viewer's place comes from standard input, \"X Y Z\" a line, as for --eye; windows follow it");
   app.add_option("--projectors", command.projectors, "only these projectors")->delimiter(',');
   pixelflex::viewer::addDrawing(app, command, texts);
   pixelflex::viewer::addView(app, command, texts);
   try {
     app.parse(argc, argv);
     pixelflex::viewer::take(texts, command);
-    if (command.headless && !command.screenshot) throw std::invalid_argument("--headless needs --screenshot DIR");
+    if ((command.headless || command.turntable > 0) && !command.screenshot) {
+      throw std::invalid_argument("--headless and --turntable need --screenshot DIR");
+    }
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   } catch (const std::invalid_argument& error) {

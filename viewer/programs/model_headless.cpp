@@ -4,47 +4,19 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "devices/display/gl_context.h"
 #include "devices/image/png_file.h"
 
 namespace pixelflex::viewer {
-namespace {
-
-/// The mean of two neighbours in a row becomes a pixel.
-void squeeze(const devices::Image8& from, devices::Image8& to, int left) {
-  for (int y = 0; y < from.height(); ++y) {
-    for (int x = 0; x < from.width() / 2; ++x) {
-      for (int c = 0; c < 3; ++c) {
-        to.at(left + x, y, c) = static_cast<std::uint8_t>((from.at(2 * x, y, c) + from.at(2 * x + 1, y, c) + 1) / 2);
-      }
-    }
-  }
-}
-
-}  // namespace
-
-devices::Image8 stereoPicture(const devices::Image8& left, const devices::Image8& right, StereoPicture kind) {
-  devices::Image8 picture = right;
-  if (kind == StereoPicture::kSideBySide) {
-    squeeze(left, picture, 0);
-    squeeze(right, picture, left.width() / 2);
-  } else {
-    for (int y = 0; y < left.height(); ++y) {
-      for (int x = 0; x < left.width(); ++x) picture.at(x, y, 0) = left.at(x, y, 0);
-    }
-  }
-  return picture;
-}
-
-void writeModelPictures(const std::filesystem::path& folder, ModelWall& model, StereoPicture stereo) {
+void writeModelPictures(const std::filesystem::path& folder, ModelWall& model, StereoPicture* stereo) {
   std::filesystem::create_directories(folder);
   for (std::size_t i = 0; i < model.projectorCount(); ++i) {
     devices::writePng(folder / (model.name(i) + ".png"), model.read(i));
   }
-  const bool both = stereo != StereoPicture::kOff && model.desktopCount() >= 2;
-  devices::writePng(folder / "desktop.png", both ? stereoPicture(model.readDesktop(0), model.readDesktop(1), stereo)
-                                                 : model.readDesktop(model.desktopCount() - 1));
+  devices::writePng(folder / "desktop.png",
+                    stereo != nullptr ? stereo->read() : model.readDesktop(model.desktopCount() - 1));
 }
 
 void printFits(const ModelCommand& command, const WallPlan& wall, const ModelWall& model) {
@@ -71,18 +43,22 @@ int runModelHeadless(const ModelCommand& command, const WallPlan& wall, Scene sc
   devices::HeadlessContext context;
   auto options = command.draw;
   options.desktop = true;
-  options.bothEyes = command.stereo != StereoPicture::kOff;
+  options.bothEyes = command.stereo != StereoKind::kOff;
   ModelWall model(context, wall, command.wall, options);
   const auto triangles = scene.triangles();
   model.setScene(std::move(scene));
   printFits(command, wall, model);
+  std::optional<StereoPicture> stereo;
+  if (options.bothEyes) stereo.emplace(context, wall.desktop());
   ModelView view = viewOf(command, windowOf(wall.display()));
   const std::filesystem::path folder = *command.screenshot;
   for (int frame = 0; frame < std::max(command.turntable, 1); ++frame) {
     if (command.turntable > 0) view.pose.yaw = command.pose.yaw + 360.0 * frame / command.turntable;
     model.setView(view);
     model.draw();
-    writeModelPictures(command.turntable > 0 ? folder / fmt::format("{:03}", frame) : folder, model, command.stereo);
+    if (stereo) stereo->draw(model.desktopTexture(0), model.desktopTexture(1), command.stereo);
+    writeModelPictures(command.turntable > 0 ? folder / fmt::format("{:03}", frame) : folder, model,
+                       stereo ? &*stereo : nullptr);
   }
   fmt::print("{} triangles on {} projectors in {}\n", triangles, model.projectorCount(), *command.screenshot);
   return 0;

@@ -8,13 +8,9 @@ namespace pixelflex::viewer {
 /// Draws without any window and writes the pictures that the command asks for. Returns the exit status.
 int runModelHeadless(const ModelCommand& command, const WallPlan& wall, Scene scene);
 
-/// Both eyes' pictures as one, for an ordinary screen: the halves squeezed side by side, or red for the left eye, green
-/// and blue for the right.
-[[nodiscard]] devices::Image8 stereoPicture(const devices::Image8& left, const devices::Image8& right,
-                                            StereoPicture kind);
-
 /// Every projector's picture as folder/NAME.png, and the desktop's as folder/desktop.png.
-void writeModelPictures(const std::filesystem::path& folder, ModelWall& model, StereoPicture stereo);
+/// `stereo`: instead of the desktop's own, where there is one.
+void writeModelPictures(const std::filesystem::path& folder, ModelWall& model, StereoPicture* stereo);
 
 /// How far one pass is from the calibrated lenses, and what to do where that is too far.
 void printFits(const ModelCommand& command, const WallPlan& wall, const ModelWall& model);

@@ -9,7 +9,7 @@ namespace pixelflex::viewer {
 std::vector<double> parseNumbers(const std::string& option, const std::string& text, std::size_t least,
                                  std::size_t most) {
   std::vector<double> numbers;
-  std::istringstream stream(text);
+  std::istringstream stream(text + ',');
   for (std::string word; std::getline(stream, word, ',');) {
     std::size_t used = 0;
     double number = NAN;

@@ -8,12 +8,10 @@
 #include <vector>
 
 #include "viewer/model/model_view.h"
+#include "viewer/model/stereo_picture.h"
 #include "viewer/plan/model_wall.h"
 
 namespace pixelflex::viewer {
-
-/// How both eyes' pictures are shown on an ordinary screen.
-enum class StereoPicture { kOff, kSideBySide, kAnaglyph };
 
 /// The command line of `pixelflex model`.
 struct ModelCommand {
@@ -24,11 +22,13 @@ struct ModelCommand {
   int turntable = 0;                      // frames of one turn; 0: none
   std::vector<std::string> projectors;    // empty: all
   ModelWallOptions draw;
-  StereoPicture stereo = StereoPicture::kOff;
+  StereoKind stereo = StereoKind::kOff;
   ModelPose pose;
   std::optional<glm::dvec3> eye;  // window's frame; none: centred
   std::optional<double> eyeDistance;
   std::optional<glm::dvec4> cut;
+  bool preview = false;  // a window of the whole desktop beside the wall
+  bool track = false;    // the viewer's place comes from standard input
   bool wireframe = false;
   bool axes = false;
 };
