@@ -1,5 +1,5 @@
 # 3D models: files, drawing, accuracy on simulated walls, the program.
-pixelflex_test(model_scene_test LABEL unit SOURCES unit/model_scene_test.cpp support/temporary_folder.cpp
+pixelflex_test(model_scene_test LABEL unit SOURCES unit/model_scene_test.cpp unit/model_bad_files_test.cpp unit/model_files.h support/temporary_folder.cpp
   LINK pixelflex_scene)
 pixelflex_test(model_depth_test LABEL gl SOURCES gl/model_depth_test.cpp LINK pixelflex_model)
 pixelflex_test(model_stereo_test LABEL gl

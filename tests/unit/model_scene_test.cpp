@@ -1,21 +1,17 @@
-// Models as files: what they become, and what becomes of bad ones.
+// Models as files: what they become.
 #include <gmock/gmock.h>
 
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
 #include <glm/vec4.hpp>
-#include <random>
 #include <sstream>
 #include <string>
 
 #include "devices/image/png_file.h"
-#include "tests/support/temporary_folder.h"
-#include "viewer/model/scene_file.h"
+#include "tests/unit/model_files.h"
 #include "viewer/model/triangle_soup.h"
 
 namespace pixelflex::viewer {
@@ -26,50 +22,10 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const std::string kCube =
-    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
-    "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n";
-
-class ModelSceneTest : public ::testing::Test {
- protected:
-  std::filesystem::path file(const std::string& name, const std::string& bytes) {
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
-    return folder_ / name;
-  }
-  Scene load(const std::string& name, const std::string& bytes) {
-    const std::array files{file(name, bytes)};
-    return loadScene(files);
-  }
-  std::string failure(const std::string& name, const std::string& bytes) {
-    try {
-      (void)load(name, bytes);
-    } catch (const ModelError& error) {
-      return error.what();
-    }
-    return "no error";
-  }
-  testing::TemporaryFolder folder_;
-};
+using ModelSceneTest = ModelFilesTest;
 
 glm::vec3 normalOf(const SceneVertex& vertex) {
   return glm::vec3(glm::unpackSnorm3x10_1x2(vertex.normal));
-}
-
-template <class T>
-std::string bytesOf(T value) {
-  std::string bytes(sizeof(T), '\0');
-  std::memcpy(bytes.data(), &value, sizeof(T));
-  return bytes;
-}
-
-std::string binaryPly(const std::string& counts, const std::string& body) {
-  return "ply\nformat binary_little_endian 1.0\n" + counts + body;
-}
-
-std::string plyHeader(std::uint64_t vertices, std::uint64_t faces) {
-  return "element vertex " + std::to_string(vertices) +
-         "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(faces) +
-         "\nproperty list uchar int vertex_indices\nend_header\n";
 }
 
 TEST_F(ModelSceneTest, ACubeHasItsEdges) {
@@ -139,6 +95,60 @@ TEST_F(ModelSceneTest, AMissingPictureIsNamed) {
   EXPECT_THAT(scene.warnings, ElementsAre(AllOf(HasSubstr("lost.obj"), HasSubstr("lost.png"))));
 }
 
+/// Little-endian chunks, as a binary glTF has them.
+std::string glbOf(std::string json, std::string binary) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  binary.resize((binary.size() + 3) / 4 * 4, '\0');
+  const auto length = static_cast<std::uint32_t>(28 + json.size() + binary.size());
+  return "glTF" + bytesOf(2U) + bytesOf(length) + bytesOf(static_cast<std::uint32_t>(json.size())) + "JSON" + json +
+         bytesOf(static_cast<std::uint32_t>(binary.size())) + std::string("BIN\0", 4) + binary;
+}
+
+TEST_F(ModelSceneTest, AGltfBringsItsPicturesAndNodes) {
+  devices::Image8 picture({2, 2}, 3);
+  picture.at(0, 1, 1) = 99;
+  devices::writePng(folder_ / "inside.png", picture);
+  std::ifstream stream(folder_ / "inside.png", std::ios::binary);
+  const std::string png((std::istreambuf_iterator<char>(stream)), {});
+  std::filesystem::remove(folder_ / "inside.png");
+  std::string binary;
+  for (const float v : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F}) binary += bytesOf(v);
+  for (const float v : {0.F, 1.F, 1.F, 1.F, 0.F, 0.F}) binary += bytesOf(v);
+  const std::string json =
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"translation":[5,0,0],"scale":[2,2,2]}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}]}],)"
+      R"("materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,1],"baseColorTexture":{"index":0}}}],)"
+      R"("textures":[{"source":0}],"images":[{"bufferView":2,"mimeType":"image/png"}],)"
+      R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},)"
+      R"({"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"}],)"
+      R"("bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":24},)"
+      R"({"buffer":0,"byteOffset":60,"byteLength":)" +
+      std::to_string(png.size()) + R"(}],"buffers":[{"byteLength":)" + std::to_string(60 + png.size()) + "}]}";
+  const Scene scene = load("one.glb", glbOf(json, binary + png));
+  EXPECT_THAT(scene.warnings, IsEmpty());
+  EXPECT_EQ(scene.bounds().low, glm::vec3(5, 0, 0));
+  EXPECT_EQ(scene.bounds().high, glm::vec3(7, 2, 0));
+  ASSERT_EQ(scene.pictures.size(), 1U);
+  EXPECT_TRUE(scene.pictures.front() == picture);
+  const auto& material = scene.materials.at(static_cast<std::size_t>(scene.parts.at(0).material));
+  EXPECT_EQ(material.colour, glm::vec3(0.5F, 0.25F, 1));  // light, not codes
+  // As in the file: (0, 1) is the bottom-left corner of the picture.
+  for (const auto& vertex : scene.vertices) EXPECT_FLOAT_EQ(vertex.texture.y, 1 - vertex.position.y / 2);
+}
+
+TEST_F(ModelSceneTest, CornersHaveTheirOwnColours) {
+  const Scene scene =
+      load("colours.ply",
+           "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+           "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+           "property list uchar int vertex_indices\nend_header\n0 0 0 255 0 0\n1 0 0 0 128 0\n0 1 0 0 0 7\n3 0 1 2\n");
+  ASSERT_EQ(scene.vertices.size(), 3U);
+  for (const auto& vertex : scene.vertices) {
+    const std::uint32_t expected = vertex.position.x > 0 ? 128U << 8 : vertex.position.y > 0 ? 7U << 16 : 255U;
+    EXPECT_EQ(vertex.colour & 0xFFFFFFU, expected);
+  }
+}
+
 TEST_F(ModelSceneTest, SeveralFilesShareTheirCoordinates) {
   const std::array files{file("a.obj", kCube), file("b.obj", "v 3 0 0\nv 4 0 0\nv 3 1 0\nf 1 2 3\n")};
   const Scene scene = loadScene(files);
@@ -152,73 +162,6 @@ TEST_F(ModelSceneTest, SeveralFilesShareTheirCoordinates) {
       EXPECT_EQ(glm::clamp(p, part.bounds.low, part.bounds.high), p);
     }
   }
-}
-
-TEST_F(ModelSceneTest, CoordinatesThatAreNoNumbersAreLeftOutByName) {
-  std::string body;
-  for (const float v : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, NAN, 1.F, 0.F}) body += bytesOf(v);
-  for (const std::int32_t last : {2, 3}) {
-    body += '\3' + bytesOf(std::int32_t{0}) + bytesOf(std::int32_t{1}) + bytesOf(last);
-  }
-  const Scene scene = load("holes.ply", binaryPly(plyHeader(4, 2), body));
-  EXPECT_EQ(scene.triangles(), 1U);
-  EXPECT_THAT(scene.warnings,
-              ElementsAre(AllOf(HasSubstr("holes.ply"), HasSubstr("no numbers"), HasSubstr("1 triangles"))));
-}
-
-TEST_F(ModelSceneTest, WhatIsCutOffOrEmptyIsRefusedInWords) {
-  EXPECT_THAT(failure("empty.obj", ""), AllOf(HasSubstr("empty.obj"), HasSubstr("is empty")));
-  EXPECT_THAT(failure("points.obj", "v 0 0 0\nv 1 0 0\n"), HasSubstr("points.obj"));
-  EXPECT_THAT(failure("cut.ply", binaryPly(plyHeader(1'000, 2'000), "short")), HasSubstr("cut off"));
-  EXPECT_THAT(failure("text.ply", "ply\nformat ascii 1.0\n" + plyHeader(30, 10) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
-              AllOf(HasSubstr("30 of vertex and 10 of face"), HasSubstr("cut off")));
-  EXPECT_THAT(failure("lines.ply", "ply\nformat ascii 1.0\n" + plyHeader(3, 9) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
-              AllOf(HasSubstr("only 4 lines"), HasSubstr("cut off")));
-  EXPECT_THAT(failure("cut.stl", std::string(80, ' ') + bytesOf(std::uint32_t{500}) + std::string(100, '\0')),
-              AllOf(HasSubstr("500 triangles"), HasSubstr("cut off")));
-  EXPECT_THAT(failure("cut.glb", "glTF" + bytesOf(2U) + bytesOf(100'000U) + "JSON"), HasSubstr("cut off"));
-  EXPECT_THAT(failure("cut.gltf", "{\"asset\": {\"version\""), HasSubstr("cut.gltf"));
-  EXPECT_THAT(failure("what.xyz", "no model at all"), AllOf(HasSubstr("what.xyz"), HasSubstr("OBJ, PLY")));
-  const std::array none{folder_ / "none.obj"};
-  EXPECT_THROW((void)loadScene(none), ModelError);
-}
-
-TEST_F(ModelSceneTest, ABillionClaimedVerticesCostNothing) {
-  EXPECT_THAT(failure("huge.ply", binaryPly(plyHeader(1'000'000'000, 1), "")), HasSubstr("1000000000 of vertex"));
-  EXPECT_THAT(failure("huge.stl", std::string(80, ' ') + bytesOf(std::uint32_t{1'000'000'000})),
-              HasSubstr("1000000000 triangles"));
-  const std::string gltf =
-      R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"scene":0,"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
-      R"("accessors":[{"bufferView":0,"componentType":5126,"count":1000000000,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":12}],)"
-      R"("buffers":[{"byteLength":12,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAA"}]})";
-  EXPECT_THAT(failure("huge.gltf", gltf), HasSubstr("huge.gltf"));
-}
-
-// Whatever a few changed bytes make of a file: a scene that is sound, or an error.
-TEST_F(ModelSceneTest, DamagedFilesEndInAnErrorAtMost) {
-  std::string body;
-  for (const float v : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F}) body += bytesOf(v);
-  body += '\3' + bytesOf(std::int32_t{0}) + bytesOf(std::int32_t{1}) + bytesOf(std::int32_t{2});
-  const std::array<std::pair<std::string, std::string>, 3> sound{
-      {{"x.obj", kCube},
-       {"x.ply", binaryPly(plyHeader(3, 1), body)},
-       {"x.stl", std::string(80, 'a') + bytesOf(1U) + std::string(50, '\1')}}};
-  std::mt19937 random(7);
-  int shown = 0;
-  for (int round = 0; round < 60; ++round) {
-    auto [name, bytes] = sound[static_cast<std::size_t>(round) % sound.size()];
-    for (int i = 0; i < 3; ++i) bytes[random() % bytes.size()] = static_cast<char>(random());
-    if (round % 5 == 0) bytes.resize(random() % bytes.size());
-    try {
-      const Scene scene = load(name, bytes);
-      ++shown;
-      for (const auto index : scene.indices) ASSERT_LT(index, scene.vertices.size());
-      for (const auto& vertex : scene.vertices) ASSERT_TRUE(std::isfinite(vertex.position.x + vertex.position.y));
-    } catch (const ModelError& error) {
-      EXPECT_THAT(error.what(), HasSubstr(name));
-    }
-  }
-  EXPECT_GT(shown, 0);
 }
 
 TEST(TriangleSoup, PartsLieTogether) {

@@ -38,23 +38,6 @@ devices::GlTexture lensTexture(const LensLattice& lens) {
   return texture;
 }
 
-devices::GlTexture sampledTexture(GLenum format, devices::Size size, int samples) {
-  if (samples == 1) return makeTexture(format, size);
-  auto texture = devices::GlTexture::create(GL_TEXTURE_2D_MULTISAMPLE);
-  glTextureStorage2DMultisample(texture.get(), samples, format, size.width, size.height, GL_TRUE);
-  return texture;
-}
-
-devices::GlFramebuffer targetOf(devices::GlName colour, devices::GlName depth, const std::string& what) {
-  auto target = devices::GlFramebuffer::create();
-  glNamedFramebufferTexture(target.get(), GL_COLOR_ATTACHMENT0, colour, 0);
-  if (depth != 0) glNamedFramebufferTexture(target.get(), GL_DEPTH_ATTACHMENT, depth, 0);
-  if (glCheckNamedFramebufferStatus(target.get(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    throw RendererError("the graphics driver cannot draw into " + what);
-  }
-  return target;
-}
-
 void checkResolution(const OutputPlan& plan) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
@@ -108,7 +91,7 @@ ModelRenderer::Frame ModelRenderer::makeFrame(const ModelOutput& output) const {
   frame.variant.transfer = output.light.transfer;
   if (!output.lens.empty()) frame.lens = lensTexture(output.lens);
   frame.frame = makeTexture(options_.measure ? GL_RGBA32F : GL_RGBA8, output.light.resolution);
-  frame.target = targetOf(frame.frame.get(), 0, "output '" + output.light.name + "'");
+  frame.target = drawingTarget(frame.frame.get(), 0, "output '" + output.light.name + "'");
   // The light is on the GPU now.
   frame.output.light.alpha = frame.output.light.gain = frame.output.light.black = {};
   return frame;
@@ -128,25 +111,11 @@ void ModelRenderer::setView(const ModelView& view) {
   stale_ = true;
 }
 
-ModelRenderer::Canvas& ModelRenderer::canvasOf(devices::Size size) {
+const ModelCanvas& ModelRenderer::canvasOf(devices::Size size) {
   const auto found = canvases_.find({size.width, size.height});
   if (found != canvases_.end()) return found->second;
-  return canvases_.emplace(std::pair(size.width, size.height), makeCanvas(size)).first->second;
-}
-
-ModelRenderer::Canvas ModelRenderer::makeCanvas(devices::Size size) const {
-  const std::string what = fmt::format("{}x{} pixels of {} samples with depth", size.width, size.height, samples_);
-  Canvas canvas;
-  canvas.depth = sampledTexture(GL_DEPTH_COMPONENT32F, size, samples_);
-  canvas.light = makeTexture(options_.measure ? GL_RGBA32F : GL_RGBA16F, size);
-  if (samples_ == 1) {
-    canvas.lightTarget = targetOf(canvas.light.get(), canvas.depth.get(), what);
-    return canvas;
-  }
-  canvas.samples = sampledTexture(GL_RGBA16F, size, samples_);
-  canvas.sampleTarget = targetOf(canvas.samples.get(), canvas.depth.get(), what);
-  canvas.lightTarget = targetOf(canvas.light.get(), 0, what);
-  return canvas;
+  return canvases_.emplace(std::pair(size.width, size.height), ModelCanvas(size, samples_, options_.measure))
+      .first->second;
 }
 
 const devices::GlProgram& ModelRenderer::program(const std::string& name, const std::string& definitions) {
@@ -173,31 +142,28 @@ void ModelRenderer::draw() {
 }
 
 void ModelRenderer::drawFrame(Frame& frame) {
-  const Canvas& canvas = canvasOf(frame.output.light.resolution);
+  const ModelCanvas& canvas = canvasOf(frame.output.light.resolution);
   const auto [width, height] = frame.output.light.resolution;
   glViewport(0, 0, width, height);
   prepareState(view_.wireframe);
   drawScene(frame, canvas);
   restoreState();
-  if (samples_ > 1) {
-    glBlitNamedFramebuffer(canvas.sampleTarget.get(), canvas.lightTarget.get(), 0, 0, width, height, 0, 0, width,
-                           height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  }
+  canvas.resolve();
   if (options_.measure) {
-    glCopyImageSubData(canvas.light.get(), GL_TEXTURE_2D, 0, 0, 0, 0, frame.frame.get(), GL_TEXTURE_2D, 0, 0, 0, 0,
-                       width, height, 1);
+    glCopyImageSubData(canvas.light(), GL_TEXTURE_2D, 0, 0, 0, 0, frame.frame.get(), GL_TEXTURE_2D, 0, 0, 0, 0, width,
+                       height, 1);
     return;
   }
   glBindVertexArray(noVertices_.get());
   frame.light.bind();
-  glBindFramebuffer(GL_FRAMEBUFFER, canvas.lightTarget.get());
+  glBindFramebuffer(GL_FRAMEBUFFER, canvas.lightTarget());
   const bool dark = frame.drawn.parts == 0 && !view_.axes;
   if (frame.variant.mask && options_.correct && !dark) drawMask(frame);
   lookUp(frame, canvas);
 }
 
-void ModelRenderer::drawScene(Frame& frame, const Canvas& canvas) {
-  glBindFramebuffer(GL_FRAMEBUFFER, samples_ > 1 ? canvas.sampleTarget.get() : canvas.lightTarget.get());
+void ModelRenderer::drawScene(Frame& frame, const ModelCanvas& canvas) {
+  glBindFramebuffer(GL_FRAMEBUFFER, canvas.sampleTarget());
   constexpr GLfloat kBlack[] = {0, 0, 0, 0};
   constexpr GLfloat kFar = 1;
   glClearBufferfv(GL_COLOR, 0, kBlack);
@@ -252,7 +218,7 @@ void ModelRenderer::drawMask(const Frame& frame) {
   glDisable(GL_BLEND);
 }
 
-void ModelRenderer::lookUp(const Frame& frame, const Canvas& canvas) {
+void ModelRenderer::lookUp(const Frame& frame, const ModelCanvas& canvas) {
   const auto& table = program("lookup", lightDefinitions(frame.variant));
   table.use();
   frame.light.setUniforms(table);
@@ -260,7 +226,7 @@ void ModelRenderer::lookUp(const Frame& frame, const Canvas& canvas) {
   table.set("noise", static_cast<int>(kNoiseUnit));
   table.set("highestCode", 255.0F);
   if (frame.variant.dither) glBindTextureUnit(kNoiseUnit, noise_.ditherTile());
-  glBindTextureUnit(kSceneUnit, canvas.light.get());
+  glBindTextureUnit(kSceneUnit, canvas.light());
   glBindFramebuffer(GL_FRAMEBUFFER, frame.target.get());
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }

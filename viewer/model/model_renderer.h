@@ -4,9 +4,11 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "devices/display/gl_context.h"
+#include "viewer/model/model_canvas.h"
 #include "viewer/model/model_view.h"
 #include "viewer/model/one_pass.h"
 #include "viewer/model/scene_buffers.h"
@@ -75,31 +77,22 @@ class ModelRenderer {
     devices::GlFramebuffer target;
     DrawnParts drawn;
   };
-  /// What frames of one size are drawn in, one after the other.
-  struct Canvas {
-    devices::GlTexture samples;  // where a pixel has several
-    devices::GlTexture depth;
-    devices::GlTexture light;
-    devices::GlFramebuffer sampleTarget;
-    devices::GlFramebuffer lightTarget;
-  };
   [[nodiscard]] Frame makeFrame(const ModelOutput& output) const;
-  Canvas& canvasOf(devices::Size size);
-  [[nodiscard]] Canvas makeCanvas(devices::Size size) const;
+  const ModelCanvas& canvasOf(devices::Size size);
   const devices::GlProgram& program(const std::string& name, const std::string& definitions);
   void drawFrame(Frame& frame);
-  void drawScene(Frame& frame, const Canvas& canvas);
+  void drawScene(Frame& frame, const ModelCanvas& canvas);
   const devices::GlProgram& useModelProgram(const Frame& frame, bool clip);
   void setMatrices(const devices::GlProgram& program, const Frame& frame, const glm::dmat4& desktopFromModel) const;
   void drawMask(const Frame& frame);
-  void lookUp(const Frame& frame, const Canvas& canvas);
+  void lookUp(const Frame& frame, const ModelCanvas& canvas);
 
   devices::GlContext& context_;
   ModelOptions options_;
   int samples_ = 1;
   WarpPrograms noise_;
-  std::map<std::string, devices::GlProgram> programs_;  // by name and definitions
-  std::map<std::pair<int, int>, Canvas> canvases_;
+  std::map<std::string, devices::GlProgram> programs_;   // by name and definitions
+  std::map<std::pair<int, int>, ModelCanvas> canvases_;  // by width and height
   std::vector<Frame> frames_;
   std::optional<SceneBuffers> scene_;
   std::optional<SceneBuffers> axes_;

@@ -1,0 +1,84 @@
+// Bad models: an error or a named warning, and never the end of the program.
+#include <cmath>
+#include <random>
+
+#include "tests/unit/model_files.h"
+
+namespace pixelflex::viewer {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+using ModelBadFilesTest = ModelFilesTest;
+
+TEST_F(ModelBadFilesTest, CoordinatesThatAreNoNumbersAreLeftOutByName) {
+  std::string body;
+  for (const float v : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, NAN, 1.F, 0.F}) body += bytesOf(v);
+  for (const std::int32_t last : {2, 3}) {
+    body += '\3' + bytesOf(std::int32_t{0}) + bytesOf(std::int32_t{1}) + bytesOf(last);
+  }
+  const Scene scene = load("holes.ply", binaryPly(plyHeader(4, 2), body));
+  EXPECT_EQ(scene.triangles(), 1U);
+  EXPECT_THAT(scene.warnings,
+              ElementsAre(AllOf(HasSubstr("holes.ply"), HasSubstr("no numbers"), HasSubstr("1 triangles"))));
+}
+
+TEST_F(ModelBadFilesTest, WhatIsCutOffOrEmptyIsRefusedInWords) {
+  EXPECT_THAT(failure("empty.obj", ""), AllOf(HasSubstr("empty.obj"), HasSubstr("is empty")));
+  EXPECT_THAT(failure("points.obj", "v 0 0 0\nv 1 0 0\n"), HasSubstr("points.obj"));
+  EXPECT_THAT(failure("cut.ply", binaryPly(plyHeader(1'000, 2'000), "short")), HasSubstr("cut off"));
+  EXPECT_THAT(failure("text.ply", "ply\nformat ascii 1.0\n" + plyHeader(30, 10) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+              AllOf(HasSubstr("30 of vertex and 10 of face"), HasSubstr("cut off")));
+  EXPECT_THAT(failure("lines.ply", "ply\nformat ascii 1.0\n" + plyHeader(3, 9) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+              AllOf(HasSubstr("only 4 lines"), HasSubstr("cut off")));
+  EXPECT_THAT(failure("cut.stl", std::string(80, ' ') + bytesOf(std::uint32_t{500}) + std::string(100, '\0')),
+              AllOf(HasSubstr("500 triangles"), HasSubstr("cut off")));
+  EXPECT_THAT(failure("cut.glb", "glTF" + bytesOf(2U) + bytesOf(100'000U) + "JSON"), HasSubstr("cut off"));
+  EXPECT_THAT(failure("cut.gltf", "{\"asset\": {\"version\""), HasSubstr("cut.gltf"));
+  EXPECT_THAT(failure("what.xyz", "no model at all"), AllOf(HasSubstr("what.xyz"), HasSubstr("OBJ, PLY")));
+  const std::array none{folder_ / "none.obj"};
+  EXPECT_THROW((void)loadScene(none), ModelError);
+}
+
+TEST_F(ModelBadFilesTest, ABillionClaimedVerticesCostNothing) {
+  EXPECT_THAT(failure("huge.ply", binaryPly(plyHeader(1'000'000'000, 1), "")), HasSubstr("1000000000 of vertex"));
+  EXPECT_THAT(failure("huge.stl", std::string(80, ' ') + bytesOf(std::uint32_t{1'000'000'000})),
+              HasSubstr("1000000000 triangles"));
+  const std::string gltf =
+      R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"scene":0,"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+      R"("accessors":[{"bufferView":0,"componentType":5126,"count":1000000000,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":12}],)"
+      R"("buffers":[{"byteLength":12,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAA"}]})";
+  EXPECT_THAT(failure("huge.gltf", gltf), HasSubstr("huge.gltf"));
+}
+
+// Whatever a few changed bytes make of a file: a scene that is sound, or an error.
+TEST_F(ModelBadFilesTest, DamagedFilesEndInAnErrorAtMost) {
+  std::string body;
+  for (const float v : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F}) body += bytesOf(v);
+  body += '\3' + bytesOf(std::int32_t{0}) + bytesOf(std::int32_t{1}) + bytesOf(std::int32_t{2});
+  const std::array<std::pair<std::string, std::string>, 3> sound{
+      {{"x.obj", kCube},
+       {"x.ply", binaryPly(plyHeader(3, 1), body)},
+       {"x.stl", std::string(80, 'a') + bytesOf(1U) + std::string(50, '\1')}}};
+  std::mt19937 random(7);
+  int shown = 0;
+  for (int round = 0; round < 60; ++round) {
+    auto [name, bytes] = sound[static_cast<std::size_t>(round) % sound.size()];
+    for (int i = 0; i < 3; ++i) bytes[random() % bytes.size()] = static_cast<char>(random());
+    if (round % 5 == 0) bytes.resize(random() % bytes.size());
+    try {
+      const Scene scene = load(name, bytes);
+      ++shown;
+      for (const auto index : scene.indices) ASSERT_LT(index, scene.vertices.size());
+      for (const auto& vertex : scene.vertices) ASSERT_TRUE(std::isfinite(vertex.position.x + vertex.position.y));
+    } catch (const ModelError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(name));
+    }
+  }
+  EXPECT_GT(shown, 0);
+}
+
+}  // namespace
+}  // namespace pixelflex::viewer
