@@ -48,8 +48,9 @@ void addDrawing(CLI::App& app, ModelCommand& command, Texts& texts) {
   app.add_option("--samples", command.draw.model.samples, "of each pixel, to smooth edges; 1: they are not")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
-  app.add_option("--stereo", command.stereo,
-                 "desktop.png with both eyes' pictures; a wall with stack: left-right shows them itself")
+  app.add_option(
+         "--stereo", command.stereo,
+         "desktop.png and the preview with both eyes' pictures; a wall with stack: left-right shows them itself")
       ->transform(CLI::CheckedTransformer(kStereo))
       ->option_text("off|side-by-side|anaglyph");
 }
@@ -124,7 +125,7 @@ int main(int argc, char** argv) {
   app.add_flag("--headless", command.headless, "draw without any window or X server (EGL)");
   app.add_option("--screenshot", command.screenshot, "write DIR/<projector>.png and DIR/desktop.png and exit");
   app.add_option("--turntable", command.turntable,
-                 "turn the model once in so many steps; with --screenshot, the pictures of step N go into DIR/N")
+                 "turn the model once in so many steps; --screenshot's pictures of step N go into DIR/N")
       ->check(CLI::Range(1, 999));
   app.add_flag("--preview", command.preview, "a window of the whole desktop, also beside the wall");
   app.add_flag("--track", command.track,
