@@ -84,6 +84,11 @@ int waitForPort(Process& process, const std::filesystem::path& flag) {
   throw std::runtime_error("x11vnc did not start");
 }
 
+// Clients take letters for what the locale says.
+std::vector<std::string> clientEnvironment(const std::string& display) {
+  return {"DISPLAY=" + display, "LC_ALL=C.UTF-8"};
+}
+
 }  // namespace
 
 XServer::XServer(const Command& command) {
@@ -108,12 +113,12 @@ bool XServer::tryToStart(const Command& command) {
 
 Process& XServer::start(const std::vector<std::string>& command) {
   clients_.push_back(
-      std::make_unique<Process>(command, ProcessOptions{{"DISPLAY=" + display_}, folder_ / "clients.log"}));
+      std::make_unique<Process>(command, ProcessOptions{clientEnvironment(display_), folder_ / "clients.log"}));
   return *clients_.back();
 }
 
 std::string XServer::query(const std::vector<std::string>& command) const {
-  Output output = run(command, {"DISPLAY=" + display_});
+  Output output = run(command, clientEnvironment(display_));
   if (output.status != 0) throw std::runtime_error(command.front() + " failed: " + output.text);
   return std::move(output.text);
 }
