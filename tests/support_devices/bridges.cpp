@@ -70,7 +70,7 @@ Bridge::Bridge(Kind kind, const std::string& serialDevice) : kind_(kind), port_(
   } else {
     const auto settings = folder_ / "ser2net.yaml";
     std::ofstream(settings) << ser2netSettings(kind, port_, serialDevice);
-    command = {"ser2net", "-n", "-d", "-c", settings.string(), "-P", (folder_ / "pid").string()};
+    command = {"/usr/sbin/ser2net", "-n", "-d", "-c", settings.string(), "-P", (folder_ / "pid").string()};
   }
   process_ = std::make_unique<Process>(command, ProcessOptions{.log = folder_ / "log"});
   waitForPort(port_);
