@@ -31,6 +31,10 @@ pixelflex_test(wall_control_test LABEL unit
   SOURCES unit/preset_plan_test.cpp
   LINK pixelflex_wall_control)
 
+pixelflex_test(wall_console_test LABEL unit
+  SOURCES unit/wall_console_test.cpp e2e/device_room.h
+  LINK pixelflex_wall_control pixelflex_device_support pixelflex_device_host)
+
 pixelflex_test(preset_cli_test LABEL e2e
   SOURCES e2e/preset_cli_test.cpp e2e/device_room.h
   LINK pixelflex_device_support pixelflex_device_host pixelflex_store)

@@ -47,6 +47,7 @@ struct Arguments {
   std::vector<std::string> clearNudges;
   bool check = false;
   bool all = false;
+  bool progress = false;
 };
 
 /// Where the photographs come from, with the devices that must outlive them.
@@ -141,7 +142,7 @@ void calibrateFlat(const fs::path& folder, const Wall& wall) {
 
 void check(const fs::path& folder, const Wall& wall, const Arguments& arguments) {
   const Source source = openSource(folder, wall, arguments);
-  ConsoleProgress progress;
+  ConsoleProgress progress(arguments.progress);
   const auto drifts = checkDrift(loadCalibration(folder), *source.photographs, arguments.only, progress);
   fmt::print("\n{}", formatDrifts(drifts));
 }
@@ -172,7 +173,7 @@ void calibrate(const Arguments& arguments) {
   changeNudges(folder, wall, arguments);
   Source source;
   if (needsPhotographs(wall, arguments)) source = openSource(folder, wall, arguments);
-  ConsoleProgress progress;
+  ConsoleProgress progress(arguments.progress);
   Procedure procedure(folder, wall, hasCalibration(folder) ? loadCalibration(folder) : Calibration{},
                       source.photographs.get(), progress);
   const auto ran = procedure.run({.steps = arguments.steps,
@@ -217,6 +218,7 @@ int main(int argc, char** argv) {
       "stays through calibrations");
   app.add_option("--clear-nudge", arguments.clearNudges, "take the correction by hand away again")->delimiter(',');
   app.add_flag("--all", arguments.all, "every step, stale or not");
+  app.add_flag("--progress", arguments.progress, "tell how far it is in lines, for programs: progress STEP DONE TOTAL");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -9,7 +9,8 @@ namespace pixelflex::calib {
 
 using Clock = std::chrono::steady_clock;
 
-ConsoleProgress::ConsoleProgress() : terminal_(isatty(STDOUT_FILENO) != 0) {}
+ConsoleProgress::ConsoleProgress(bool forPrograms)
+    : forPrograms_(forPrograms), terminal_(!forPrograms && isatty(STDOUT_FILENO) != 0) {}
 
 void ConsoleProgress::beginStep(const std::string& step) {
   step_ = step;
@@ -19,8 +20,13 @@ void ConsoleProgress::beginStep(const std::string& step) {
 
 void ConsoleProgress::advance(int done, int total, const std::string& what) {
   constexpr auto kRedraw = std::chrono::milliseconds(100);
-  if (!terminal_ || Clock::now() - drawn_ < kRedraw) return;
+  if ((!terminal_ && !forPrograms_) || Clock::now() - drawn_ < kRedraw) return;
   drawn_ = Clock::now();
+  if (forPrograms_) {
+    fmt::print("progress {} {} {} {}\n", step_, done, total, what);
+    std::fflush(stdout);
+    return;
+  }
   constexpr int kWidth = 30;
   const int filled = total > 0 ? kWidth * done / total : 0;
   fmt::print("\r\033[K{:<11}[{:=<{}}{: <{}}] {}/{} {}", step_, "", filled, "", kWidth - filled, done,

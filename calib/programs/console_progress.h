@@ -7,10 +7,11 @@
 
 namespace pixelflex::calib {
 
-/// Progress on a terminal: one line a step with its time, a bar while it runs; without a terminal only whole lines.
+/// Progress on a terminal: one line a step with its time, a bar while it runs; without a terminal only whole lines. For
+/// programs, `forPrograms`: in the bar's stead a line "progress STEP DONE TOTAL WHAT" now and then.
 class ConsoleProgress : public Progress {
  public:
-  ConsoleProgress();
+  explicit ConsoleProgress(bool forPrograms);
   void beginStep(const std::string& step) override;
   void advance(int done, int total, const std::string& what) override;
   void endStep(const std::string& result) override;
@@ -18,6 +19,7 @@ class ConsoleProgress : public Progress {
 
  private:
   void clearBar();
+  bool forPrograms_;
   bool terminal_;
   bool barShown_ = false;
   std::string step_;

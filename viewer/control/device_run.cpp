@@ -71,6 +71,11 @@ class Runner {
 
 }  // namespace
 
+void runDeviceSteps(devices::Device& device, const std::vector<DeviceStep>& steps, const devices::Progress& progress,
+                    DeviceOutcome& outcome) {
+  Runner(device, progress, outcome).take(steps);
+}
+
 std::unique_ptr<devices::Device> openDevice(devices::LineLoop& loop, const calib::WallDevice& device,
                                             std::chrono::milliseconds infocusGap) {
   return devices::makeDevice(loop, {.name = device.name,

@@ -37,6 +37,11 @@ struct DeviceRunOptions {
 [[nodiscard]] std::vector<DeviceOutcome> runDeviceJobs(devices::LineLoop& loop, const std::vector<DeviceJob>& jobs,
                                                        const DeviceRunOptions& options);
 
+/// One step after the other on the calling thread; what is set in a row is set at once. What is read goes into
+/// `outcome`. Throws as Device does.
+void runDeviceSteps(devices::Device& device, const std::vector<DeviceStep>& steps, const devices::Progress& progress,
+                    DeviceOutcome& outcome);
+
 /// The driver of a wall's device; not connected yet. Throws DeviceError, StoreError.
 [[nodiscard]] std::unique_ptr<devices::Device> openDevice(devices::LineLoop& loop, const calib::WallDevice& device,
                                                           std::chrono::milliseconds infocusGap);

@@ -29,7 +29,7 @@ std::string nowText() {
 
 struct PresetSession::Member {
   calib::WallDevice wanted;
-  std::unique_ptr<devices::Device> device;  // none: it could not even be made
+  std::shared_ptr<devices::Device> device;  // none: it could not even be made
   std::map<std::string, std::string> values = {};
   PresetOutcome outcome = {};
   bool muted = false;  // by us
@@ -55,7 +55,8 @@ PresetSession::PresetSession(devices::LineLoop& loop, const std::filesystem::pat
     auto member = std::make_unique<Member>(Member{.wanted = device, .device = nullptr});
     member->outcome.device = device.name;
     try {
-      member->device = openDevice(loop, device, options_.infocusGap);
+      if (options_.borrow) member->device = options_.borrow(device);
+      if (!member->device) member->device = openDevice(loop, device, options_.infocusGap);
     } catch (const std::exception& error) {
       member->outcome.error = error.what();
     }

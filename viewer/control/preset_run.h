@@ -33,6 +33,8 @@ struct PresetRunOptions {
   /// Called from several threads, one at a time.
   std::function<void(const std::string& device, const std::string& state)> report = {};
   std::chrono::milliseconds infocusGap = std::chrono::seconds(3);
+  /// Devices that are in use already, instead of lines of its own; null for those that it shall open itself.
+  std::function<std::shared_ptr<devices::Device>(const calib::WallDevice& device)> borrow = {};
 };
 
 /// A wall's devices while a preset is saved or restored: all are spoken to at the same time, one that is dead holds up

@@ -1,0 +1,209 @@
+#include "viewer/control/device_worker.h"
+
+#include <exception>
+#include <utility>
+
+#include "devices/control/device_error.h"
+#include "devices/transport/line_error.h"
+#include "viewer/control/console_board.h"
+#include "viewer/control/device_run.h"
+
+namespace pixelflex::viewer {
+namespace {
+
+// Between two looks at a device that does not answer: its line has a patience of its own on top.
+constexpr std::chrono::seconds kLostPause{2};
+const std::string kStopped = "stopped on request";
+
+}  // namespace
+
+DeviceWorker::DeviceWorker(ConsoleBoard& board, std::size_t index, std::shared_ptr<devices::Device> device,
+                           std::chrono::milliseconds pollEvery)
+    : board_(board),
+      index_(index),
+      device_(std::move(device)),
+      pollEvery_(pollEvery),
+      halter_([this](const std::stop_token& stop) { haltWhenAsked(stop); }),
+      worker_([this](const std::stop_token& stop) { work(stop); }) {}
+
+DeviceWorker::~DeviceWorker() {
+  retire();
+  worker_.join();
+  halter_.join();
+}
+
+void DeviceWorker::retire() {
+  const auto dropped = dropTasks();
+  worker_.request_stop();
+  halter_.request_stop();
+  for (const auto& task : dropped) task.done(device_->name() + ": " + kStopped);
+}
+
+void DeviceWorker::give(DeviceTask task) {
+  {
+    const std::lock_guard lock(mutex_);
+    tasks_.push_back(std::move(task));
+  }
+  showWaiting();
+  wake_.notify_all();
+}
+
+void DeviceWorker::halt(std::function<void(const std::string& error)> done) {
+  const auto dropped = dropTasks();
+  {
+    const std::lock_guard lock(mutex_);
+    halts_.push_back(std::move(done));
+  }
+  wake_.notify_all();
+  for (const auto& task : dropped) task.done(device_->name() + ": " + kStopped);
+  showWaiting();
+}
+
+void DeviceWorker::lookAgain() {
+  {
+    const std::lock_guard lock(mutex_);
+    look_ = true;
+  }
+  wake_.notify_all();
+}
+
+std::vector<DeviceTask> DeviceWorker::dropTasks() {
+  const std::lock_guard lock(mutex_);
+  std::vector<DeviceTask> dropped(std::make_move_iterator(tasks_.begin()), std::make_move_iterator(tasks_.end()));
+  tasks_.clear();
+  running_.request_stop();
+  return dropped;
+}
+
+bool DeviceWorker::hasTasks() {
+  const std::lock_guard lock(mutex_);
+  return !tasks_.empty();
+}
+
+void DeviceWorker::showWaiting() {
+  board_.changeDevice(index_, [this](DeviceState& state) {
+    const std::lock_guard lock(mutex_);
+    state.waiting = static_cast<int>(tasks_.size());
+  });
+}
+
+void DeviceWorker::haltWhenAsked(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  while (wake_.wait(lock, stop, [this] { return !halts_.empty(); })) {
+    const auto done = std::move(halts_.front());
+    halts_.pop_front();
+    lock.unlock();
+    std::string error;
+    try {
+      device_->halt();
+    } catch (const std::exception& failure) {
+      error = failure.what();
+    }
+    done(error);
+    lookAgain();
+    lock.lock();
+  }
+}
+
+void DeviceWorker::work(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    std::optional<DeviceTask> task;
+    {
+      std::unique_lock lock(mutex_);
+      const auto pause = lost_ ? std::chrono::milliseconds(kLostPause) : pollEvery_;
+      wake_.wait_for(lock, stop, pause, [this] { return look_ || !tasks_.empty(); });
+      if (stop.stop_requested()) return;
+      look_ = false;
+      if (!tasks_.empty()) {
+        task = std::move(tasks_.front());
+        tasks_.pop_front();
+        running_ = std::stop_source();
+      }
+    }
+    if (task) run(*task);
+    if (!hasTasks()) poll(stop);
+  }
+}
+
+void DeviceWorker::run(const DeviceTask& task) {
+  const std::stop_token stop = [this] {
+    const std::lock_guard lock(mutex_);
+    return running_.get_token();
+  }();
+  const auto show = [&](const std::string& doing) {
+    board_.changeDevice(index_, [&](DeviceState& state) { state.doing = doing; });
+  };
+  show(task.text);
+  showWaiting();
+  const devices::Progress progress{.stop = stop, .report = show};
+  std::string error;
+  try {
+    DeviceOutcome outcome;
+    runDeviceSteps(*device_, task.steps, progress, outcome);
+    succeeded();
+  } catch (const std::exception& failure) {
+    error = failure.what();
+    // What is stopped fails, but nothing is wrong with the device.
+    if (!stop.stop_requested()) {
+      board_.changeDevice(index_, [&](DeviceState& state) { state.trouble = error; });
+    }
+  }
+  show("");
+  task.done(error);
+}
+
+void DeviceWorker::poll(const std::stop_token& stop) {
+  try {
+    readAll(stop);
+    if (lost_) board_.log(LogLine::Kind::kNote, device_->name() + " answers again");
+    lost_ = false;
+  } catch (const devices::LineError& error) {
+    // A halt went before; there will be another look.
+    if (error.failure() != devices::LineFailure::kInterrupted) failed(error.what());
+  } catch (const std::exception& error) {
+    failed(error.what());
+  }
+}
+
+void DeviceWorker::succeeded() {
+  board_.changeDevice(index_, [](DeviceState& state) { state.trouble.clear(); });
+}
+
+void DeviceWorker::failed(const std::string& why) {
+  board_.changeDevice(index_, [&](DeviceState& state) {
+    state.contact = DeviceState::Contact::kLost;
+    state.trouble = why;
+  });
+  if (!lost_) board_.log(LogLine::Kind::kError, why);
+  lost_ = true;
+}
+
+/// One setting after the other, as long as nobody waits for the device.
+void DeviceWorker::readAll(const std::stop_token& stop) {
+  const std::string identity = device_->identity();
+  const auto actions = device_->actions();
+  std::vector<SettingState> settings;
+  for (const auto& info : device_->settings()) settings.push_back({info, ""});
+  bool awake = true;
+  for (auto& [info, value] : settings) {
+    if (stop.stop_requested() || hasTasks()) return;
+    if (!info.readable || !awake) continue;
+    try {
+      value = devices::textOf(device_->read(info.name));
+      // In standby there is nothing else to be heard.
+      if (info.name == "power") awake = value == "on";
+    } catch (const devices::DeviceError&) {
+      value.clear();
+    }
+  }
+  board_.changeDevice(index_, [&](DeviceState& state) {
+    // What went wrong with a command is said until one goes well; a lost line is well when it is back.
+    if (state.contact == DeviceState::Contact::kLost) state.trouble.clear();
+    state.contact = DeviceState::Contact::kWell;
+    state.identity = identity;
+    state.actions = actions;
+    state.settings = std::move(settings);
+  });
+}
+
+}  // namespace pixelflex::viewer
