@@ -43,6 +43,7 @@ class FakeConnection {
   struct ClientGone {};
 
   explicit FakeConnection(int socket) : socket_(socket) {}
+  [[nodiscard]] int socket() const { return socket_; }
   void send(const Message& message) const;
   std::vector<std::uint8_t> receive(std::size_t count) const;
   /// Reads and forgets until the client closes or `time` is up.

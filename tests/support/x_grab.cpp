@@ -2,6 +2,8 @@
 #include <X11/Xutil.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <random>
@@ -54,6 +56,16 @@ void paintNoise(const std::string& display, unsigned seed) {
       &XFree);
   XPutImage(x, XDefaultRootWindow(x), XDefaultGC(x, screen), image.get(), 0, 0, 0, 0, width, height);
   XSync(x, False);
+}
+
+std::size_t keysDown(const std::string& display) {
+  const std::unique_ptr<Display, CloseDisplay> connection(XOpenDisplay(display.c_str()));
+  if (connection == nullptr) throw std::runtime_error("cannot open the display " + display);
+  std::array<char, 32> keys{};  // a bit each
+  XQueryKeymap(connection.get(), keys.data());
+  std::size_t count = 0;
+  for (const char byte : keys) count += static_cast<std::size_t>(std::popcount(static_cast<unsigned char>(byte)));
+  return count;
 }
 
 devices::Image8 grabRoot(const std::string& display) {

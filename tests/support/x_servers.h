@@ -85,6 +85,9 @@ class X11vncServer {
 /// Fills the root window with noise, which no codec makes small.
 void paintNoise(const std::string& display, unsigned seed);
 
+/// How many keys are down, as the X server knows it.
+[[nodiscard]] std::size_t keysDown(const std::string& display);
+
 /// The whole screen as the X server itself holds it, without the pointer: red, green, blue.
 [[nodiscard]] devices::Image8 grabRoot(const std::string& display);
 

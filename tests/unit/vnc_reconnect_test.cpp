@@ -116,7 +116,7 @@ TEST(Reconnect, LetsGoOfWhatWasHeldAndSendsNothingTypedMeanwhile) {
                                            [&](FakeConnection& client) {
                                              typed.get_future().wait();
                                              client.shakeHands({300, 200});
-                                             received = client.receive(8 + 6 + 6 + 8 + 8);
+                                             received = client.receive(8 + 8 + 6 + 8 + 8 + 6);
                                            }});
     DesktopMirror mirror(optionsFor(server, Retry::kLost));
     ASSERT_TRUE(mirror.pumpUntil([&] { return countOf<Connected>(mirror) == 1; })) << mirror.summary();
@@ -136,7 +136,8 @@ TEST(Reconnect, LetsGoOfWhatWasHeldAndSendsNothingTypedMeanwhile) {
     mirror.session().sendPointer(101, 50, 1);  // still held since before
     mirror.pumpUntil([&] { return countOf<Lost>(mirror) == 2; });
   }
-  EXPECT_THAT(received, ElementsAre(4, 0, 0, 0, 0, 0, 0xff, 0xe3,  // the key goes up
+  EXPECT_THAT(received, ElementsAre(4, 1, 0, 0, 0, 0, 0xff, 0xe3,  // is this connection's
+                                    4, 0, 0, 0, 0, 0, 0xff, 0xe3,  // and goes up
                                     5, 0, 0, 100, 0, 50,           // and the button, where the pointer was
                                     4, 0, 0, 0, 0, 0, 0, 'w',      //
                                     4, 1, 0, 0, 0, 0, 0, 'w',      // pressed anew

@@ -3,6 +3,18 @@
 #include <utility>
 
 namespace pixelflex::viewer {
+namespace {
+
+/// Of X11/keysymdef.h: keys that mean nothing by themselves, without those that lock.
+bool isModifier(std::uint32_t keysym) {
+  constexpr std::uint32_t kShiftLeft = 0xffe1, kHyperRight = 0xffee, kCapsLock = 0xffe5, kShiftLock = 0xffe6;
+  constexpr std::uint32_t kLevel3Shift = 0xfe03, kLevel5Shift = 0xfe11, kModeSwitch = 0xff7e;
+  if (keysym == kCapsLock || keysym == kShiftLock) return false;
+  const bool usual = keysym >= kShiftLeft && keysym <= kHyperRight;
+  return usual || keysym == kLevel3Shift || keysym == kLevel5Shift || keysym == kModeSwitch;
+}
+
+}  // namespace
 
 bool HeldInput::admit(Input& input) {
   if (auto* pointer = std::get_if<PointerInput>(&input)) {
@@ -42,7 +54,12 @@ void HeldInput::lose() {
 
 std::vector<Input> HeldInput::takeReleases() {
   std::vector<Input> releases;
-  for (const std::uint32_t keysym : std::exchange(broken_, {})) releases.emplace_back(KeyInput{keysym, false});
+  for (const std::uint32_t keysym : std::exchange(broken_, {})) {
+    // TigerVNC's server lets nobody release what another connection has pressed, and one that it has not seen break
+    // may hold keys for hours. A modifier can be pressed once more and nobody notices.
+    if (isModifier(keysym)) releases.emplace_back(KeyInput{keysym, true});
+    releases.emplace_back(KeyInput{keysym, false});
+  }
   pointer_.buttons = 0;
   if (pointed_) releases.emplace_back(pointer_);
   return releases;

@@ -14,13 +14,16 @@ void Reconnection::run(const std::stop_token& stop, const std::function<void()>&
   Backoff backoff;
   try {
     while (true) {
+      const auto begun = Clock::now();
       Closed end = converse(talk);
       desk_.close();
       if (stop.stop_requested()) return;
       if (!triesAgain(end.kind)) return desk_.post({std::move(end)});
       const CloseKind kind = end.kind;
       if (!std::exchange(lost_, true)) desk_.post({Lost{kind, std::move(end.message)}});
-      waitFor(-1, 0, Clock::now() + backoff.after(kind, lasted()), desk_.stopped());
+      // An attempt in vain may have been a wait itself.
+      const auto since = connectedSince_ ? Clock::now() : begun;
+      waitFor(-1, 0, since + backoff.after(kind, lasted()), desk_.stopped());
     }
   } catch (const SessionStopped&) {
     desk_.close();

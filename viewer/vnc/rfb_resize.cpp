@@ -79,7 +79,10 @@ std::vector<std::uint8_t> setDesktopSizeMessage(devices::Size size, const std::v
 }  // namespace
 
 void requestWantedLayout(RfbState& rfb) {
-  if (!rfb.wantedLayout || !rfb.screens) return;
+  if (!rfb.wantedLayout) return;
+  // A server that has screens tells of them with its first update.
+  if (!rfb.screens && rfb.everUpdated) return refuseLayout(rfb, "cannot change its desktop's size");
+  if (!rfb.screens) return;
   const ScreenLayout& wanted = *rfb.wantedLayout;
   if (wanted.screens.empty() || wanted.screens.size() > kMaxScreens) {
     return refuseLayout(rfb, "is asked for more screens than there can be");
@@ -104,12 +107,6 @@ bool readExtendedDesktopSize(RfbState& rfb, int reason, int status, devices::Siz
   }
   rfb.screens = std::move(screens);
   return size != rfb.pixelsSize;
-}
-
-void noteUpdateForResize(RfbState& rfb) {
-  if (!rfb.wantedLayout) return;
-  if (!rfb.screens) return refuseLayout(rfb, "cannot change its desktop's size");
-  requestWantedLayout(rfb);
 }
 
 }  // namespace pixelflex::viewer

@@ -81,6 +81,7 @@ struct RfbState {
   Region damage;
   bool insideUpdate = false;
   bool updateFinished = false;
+  bool everUpdated = false;
   bool pointerUsed = false;   // this session has put it somewhere
   bool pointerDrawn = false;  // by the server, into the desktop
   bool continuousUpdates = false;

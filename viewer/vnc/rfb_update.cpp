@@ -155,8 +155,8 @@ void readUpdate(RfbState& rfb) {
   while (left > 0 && readAny(rfb, readRectangle(rfb))) --left;
   rfb.finishPictures();
   rfb.insideUpdate = false;
-  rfb.updateFinished = true;
-  noteUpdateForResize(rfb);
+  rfb.updateFinished = rfb.everUpdated = true;
+  requestWantedLayout(rfb);
 }
 
 }  // namespace pixelflex::viewer

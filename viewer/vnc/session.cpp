@@ -26,8 +26,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // A host that was there once answers within this if it is there again; one that comes back meanwhile must not wait for
-// the next of the kernel's own, ever rarer attempts.
-constexpr std::chrono::milliseconds kReconnectTimeout{1500};
+// the next of the kernel's own, ever rarer attempts, of which the second would come after a second.
+constexpr std::chrono::milliseconds kReconnectTimeout{950};
 
 // libvncclient writes without MSG_NOSIGNAL. The signal goes to the thread that writes, so blocking it here leaves the
 // program's own handling of SIGPIPE alone.
