@@ -39,3 +39,8 @@ pixelflex_test(preset_cli_test LABEL e2e
   SOURCES e2e/preset_cli_test.cpp e2e/device_room.h
   LINK pixelflex_device_support pixelflex_device_host pixelflex_store)
 add_dependencies(preset_cli_test pixelflex-device pixelflex-preset pixelflex-check)
+
+# Photographs over GigE Vision, between programs of others and of this house.
+pixelflex_test(gige_camera_test LABEL unit
+  SOURCES unit/gige_camera_test.cpp unit/raw_picture_test.cpp support_devices/gige_place.h
+  LINK pixelflex_gige_camera pixelflex_cameras pixelflex_test_support)

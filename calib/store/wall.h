@@ -40,7 +40,7 @@ struct Checkerboard {
 enum class Transfer { kSrgb, kLinear };
 
 struct CameraSource {
-  std::string source = "photos";  // photos, sim, none, v4l2:DEVICE, aravis:NAME
+  std::string source = "photos";  // photos, sim, none, v4l2:DEVICE, aravis:NAME, gphoto2:NAME
   std::optional<Checkerboard> checkerboard;
   std::optional<Transfer> transfer;  // how photographs encode light; none: as was measured, else linear
   bool operator==(const CameraSource&) const = default;

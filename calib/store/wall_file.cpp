@@ -71,7 +71,7 @@ Checkerboard readCheckerboard(const Node& node) {
 
 bool isCameraSource(const std::string& source) {
   const auto has = [&](std::string_view prefix) { return source.starts_with(prefix) && source.size() > prefix.size(); };
-  return source == "photos" || source == "sim" || source == "none" || has("v4l2:") || has("aravis:");
+  return source == "photos" || source == "sim" || source == "none" || has("v4l2:") || has("aravis:") || has("gphoto2:");
 }
 
 CameraSource readCamera(const Node& node) {
@@ -79,7 +79,8 @@ CameraSource readCamera(const Node& node) {
   const Node source = node.required("source");
   if (source.defined()) camera.source = readText(source, kMaxPath);
   if (!isCameraSource(camera.source)) {
-    source.problem("expected photos, sim, none, v4l2:DEVICE or aravis:NAME, found " + quotedForMessage(camera.source));
+    source.problem("expected photos, sim, none, v4l2:DEVICE, aravis:NAME or gphoto2:NAME, found " +
+                   quotedForMessage(camera.source));
   }
   if (const Node board = node.optional("checkerboard"); board.defined()) camera.checkerboard = readCheckerboard(board);
   if (const Node transfer = node.optional("transfer"); transfer.defined()) camera.transfer = readTransfer(transfer);

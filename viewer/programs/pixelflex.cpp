@@ -28,6 +28,7 @@ constexpr std::array kCommands = {
     Command{"new", "makes a wall's folder with a commented wall.yaml"},
     Command{"check", "lists everything wrong with the files of a wall"},
     Command{"calibrate", "measures where each projector's light falls and how bright it is"},
+    Command{"camera", "lists the cameras there are, and takes a photograph with one"},
     Command{"view", "shows a VNC desktop on the wall"},
     Command{"desktop", "runs an X desktop of the wall's own size on the wall"},
     Command{"simulate", "composes projector frames into what the audience of a simulated wall sees"},

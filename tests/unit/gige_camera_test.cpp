@@ -1,0 +1,178 @@
+#include "devices/serve/gige_camera.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <regex>
+#include <stdexcept>
+#include <string>
+
+#include "devices/camera/aravis_camera.h"
+#include "devices/camera/camera_error.h"
+#include "devices/camera/cameras.h"
+#include "tests/support/process.h"
+#include "tests/support_devices/gige_place.h"
+
+namespace pixelflex::testing {
+namespace {
+
+using devices::Camera;
+using devices::GigeCamera;
+using devices::Image8;
+using devices::Size;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// A picture that tells where each pixel is, how long it was exposed, and how many came before it.
+Image8 telling(Size size, double seconds, int count) {
+  Image8 image(size, 3);
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      image.at(x, y, 0) = static_cast<std::uint8_t>(x * 7 + y * 13);
+      image.at(x, y, 1) = static_cast<std::uint8_t>(std::lround(seconds * 1000));
+      image.at(x, y, 2) = static_cast<std::uint8_t>(count);
+    }
+  }
+  return image;
+}
+
+class GigeCameraTest : public ::testing::Test {
+ protected:
+  void serve(Size size = {640, 480}) {
+    camera_ = std::make_unique<GigeCamera>(
+        GigeCamera::Options{.serial = place_.serial, .size = size, .address = place_.address},
+        [this, size](double seconds) { return telling(size, seconds, count_ = count_ + 1); },
+        [](const std::string& what) { ADD_FAILURE() << what; });
+  }
+  [[nodiscard]] std::unique_ptr<Camera> open() const { return devices::openCamera("aravis:" + place_.address); }
+
+  GigePlace place_;
+  std::atomic<int> count_ = 0;
+  std::unique_ptr<GigeCamera> camera_;
+};
+
+TEST_F(GigeCameraTest, PicturesComeAsTheyWereTaken) {
+  serve();
+  const auto camera = open();
+  ASSERT_EQ(camera->size(), (Size{640, 480}));
+  auto* control = camera->exposureControl();
+  ASSERT_NE(control, nullptr);
+  for (const double seconds : {0.002, 0.05, 0.2}) {
+    EXPECT_NEAR(control->setExposure(seconds), seconds, 1e-6);
+    EXPECT_NEAR(control->exposure(), seconds, 1e-6);
+    const Image8 photo = camera->shoot();
+    EXPECT_EQ(photo, telling({640, 480}, seconds, count_));
+  }
+}
+
+TEST_F(GigeCameraTest, EachPhotographBeginsAfterItWasAskedFor) {
+  serve({64, 48});
+  const auto camera = open();
+  for (int i = 0; i < 20; ++i) {
+    const int before = count_;
+    EXPECT_EQ(camera->shoot().at(0, 0, 2), before + 1);
+  }
+}
+
+TEST_F(GigeCameraTest, LargePicturesComeWhole) {
+  const Size size{3000, 2000};
+  serve(size);
+  const auto camera = open();
+  for (int i = 0; i < 2; ++i) {
+    const Image8 photo = camera->shoot();
+    EXPECT_EQ(photo, telling(size, 0.01, photo.at(0, 0, 2)));
+  }
+}
+
+TEST_F(GigeCameraTest, IsFoundByItsNames) {
+  serve({64, 48});
+  for (const auto& name : {camera_->name(), place_.serial, place_.address}) {
+    EXPECT_EQ(devices::openCamera("aravis:" + name)->size(), (Size{64, 48})) << name;
+  }
+  const auto cameras = devices::listCameras();
+  EXPECT_TRUE(std::ranges::any_of(cameras, [&](const auto& info) {
+    return info.address == "aravis:" + camera_->name() && info.model == "PixelFlex Room at " + place_.address;
+  }));
+}
+
+TEST_F(GigeCameraTest, OneProgramHasItAtATime) {
+  serve({64, 48});
+  const auto first = open();
+  try {
+    (void)open();
+    FAIL() << "opened twice";
+  } catch (const devices::CameraError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("aravis:" + place_.address), HasSubstr("another program uses")));
+  }
+}
+
+TEST_F(GigeCameraTest, AddressesAreGivenOnce) {
+  serve({64, 48});
+  try {
+    const GigeCamera second({.serial = "2", .size = {64, 48}, .address = place_.address}, {}, {});
+    FAIL() << "served twice";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr(place_.address), HasSubstr("in use")));
+  }
+}
+
+TEST_F(GigeCameraTest, CamerasThatAreGoneAreNamed) {
+  serve({64, 48});
+  const auto camera = open();
+  (void)camera->shoot();
+  camera_.reset();
+  try {
+    (void)camera->shoot();
+    FAIL() << "a photograph from a camera that is gone";
+  } catch (const devices::CameraError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("aravis:" + place_.address + ": "));
+  }
+}
+
+TEST_F(GigeCameraTest, ProgramsOfOthersUnderstandIt) {
+  serve({320, 240});
+  const Output features = run({"arv-tool-0.8", "-a", place_.address, "control", "Width", "Height", "PixelFormat",
+                               "DeviceVendorName", "ExposureTimeAbs=5000", "ExposureTimeAbs"});
+  EXPECT_EQ(features.status, 0) << features.text;
+  EXPECT_THAT(features.text, AllOf(HasSubstr("Width = 320"), HasSubstr("Height = 240"), HasSubstr("RGB8"),
+                                   HasSubstr("PixelFlex"), HasSubstr("ExposureTimeAbs = 5000")));
+}
+
+TEST_F(GigeCameraTest, ProgramsOfOthersStreamFromIt) {
+  serve({320, 240});
+  // Their own socket buffer would be as small as this frame: less than a packet and its administration.
+  const Output output = run({"arv-camera-test-0.8", "-n", place_.address, "-f", "20", "--no-packet-socket", "-e",
+                             "3000", "-w", "320", "-h", "240", "--duration=3"});
+  EXPECT_EQ(output.status, 0) << output.text;
+  std::smatch completed;
+  ASSERT_TRUE(std::regex_search(output.text, completed, std::regex(R"(n_completed_buffers *= *(\d+))"))) << output.text;
+  EXPECT_GE(std::stoi(completed[1]), 3) << output.text;
+}
+
+/// A camera that was not made here.
+TEST(AravisCamera, TakesPhotographsWithACameraOfOthers) {
+  const std::string serial = GigePlace().serial;
+  const Process server({"arv-fake-gv-camera-0.8", "-i", "127.0.0.1", "-s", serial});
+  std::unique_ptr<Camera> camera;
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!camera) {
+    try {
+      camera = devices::openCamera("aravis:Aravis-Fake-" + serial);
+    } catch (const devices::CameraError&) {
+      ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+    }
+  }
+  EXPECT_EQ(camera->size(), (Size{2048, 2048}));
+  EXPECT_NEAR(camera->exposureControl()->setExposure(0.02), 0.02, 1e-6);
+  const Image8 one = camera->shoot();
+  EXPECT_EQ(one.size(), camera->size());
+  EXPECT_NE(one.at(10, 10), one.at(60, 10));  // its test picture is a ramp
+}
+
+}  // namespace
+}  // namespace pixelflex::testing
