@@ -4,8 +4,8 @@ uniform sampler2D scene;
 uniform mat3 colour;
 #endif
 #if BLACK
-uniform sampler2D black;
-uniform vec3 largestBlack;  // light
+uniform usampler2D lightMap;  // upper half: black; 65535 is 1
+uniform vec3 largestBlack;    // light, over 65535
 #endif
 
 layout(location = 0) out vec4 device;
@@ -17,7 +17,7 @@ void main() {
   light = colour * light;  // a mask that is a factor of all three colours may come before
 #endif
 #if BLACK
-  light += largestBlack * texelFetch(black, pixel, 0).r;
+  light += largestBlack * float(texelFetch(lightMap, pixel, 0).r >> 16);
 #endif
   vec3 value = clamp(deviceFromLight(clamp(light, 0.0, 1.0)), 0.0, 1.0);
 #if DITHER
