@@ -12,6 +12,10 @@ pixelflex_test(model_navigation_test LABEL unit
   LINK pixelflex_model_plan)
 pixelflex_test(model_wall_test LABEL gl TIMEOUT 300 SOURCES accuracy/model_wall_test.cpp
   LINK pixelflex_test_calibration pixelflex_test_support pixelflex_model_plan)
+pkg_check_modules(XRANDR REQUIRED IMPORTED_TARGET x11 xrandr)
+pixelflex_library(pixelflex_test_outputs HEADERS support/dummy_xorg.h SOURCES support/dummy_xorg.cpp
+  PUBLIC pixelflex_test_support PRIVATE PkgConfig::XRANDR)
+pixelflex_test(gamma_keeper_test LABEL e2e SOURCES e2e/gamma_keeper_test.cpp LINK pixelflex_test_outputs pixelflex_display)
 pixelflex_test(model_cli_test LABEL e2e TIMEOUT 240 SOURCES e2e/model_cli_test.cpp e2e/model_windows_test.cpp
   LINK pixelflex_test_support pixelflex_image pixelflex_store)
 add_dependencies(model_cli_test pixelflex-new pixelflex-model)
