@@ -12,6 +12,8 @@ pixelflex_test(model_navigation_test LABEL unit
   LINK pixelflex_model_plan)
 pixelflex_test(model_wall_test LABEL gl TIMEOUT 300 SOURCES accuracy/model_wall_test.cpp
   LINK pixelflex_test_calibration pixelflex_test_support pixelflex_model_plan)
+pixelflex_test(model_inset_test LABEL gl TIMEOUT 300 SOURCES accuracy/model_inset_test.cpp
+  LINK pixelflex_test_calibration pixelflex_test_support pixelflex_model_plan)
 pkg_check_modules(XRANDR REQUIRED IMPORTED_TARGET x11 xrandr)
 pixelflex_library(pixelflex_test_outputs HEADERS support/dummy_xorg.h SOURCES support/dummy_xorg.cpp
   PUBLIC pixelflex_test_support PRIVATE PkgConfig::XRANDR)

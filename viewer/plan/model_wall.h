@@ -2,11 +2,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "devices/display/gl_context.h"
 #include "viewer/model/model_renderer.h"
+#include "viewer/plan/close_up.h"
 #include "viewer/plan/one_pass_fit.h"
 #include "viewer/plan/wall_plan.h"
 #include "viewer/renderer/wall_renderer.h"
@@ -14,7 +16,8 @@
 namespace pixelflex::viewer {
 
 struct ModelWallOptions {
-  int passes = 1;                      // 2: drawn once for the desktop, which then goes the desktop's own way
+  int passes = 1;                      // 2: drawn once for the desktop, which then goes the desktop's own way, and
+                                       // once more for each projector that is much denser
   Features features = Features::kAll;  // of one pass
   bool lensAtVertices = false;         // one pass, for finely tessellated models
   bool desktop = false;                // one pass: the desktop is drawn as well, to look at
@@ -47,7 +50,7 @@ class ModelWall {
   [[nodiscard]] devices::GlName texture(std::size_t projector) const;
   [[nodiscard]] devices::Image8 read(std::size_t projector);
   [[nodiscard]] devices::ImageF readFloat(std::size_t projector);
-  /// What one pass sent for a projector, or the first of two for the desktop.
+  /// What one pass sent for a projector, or the first of two for the desktop or the projector's close-up.
   [[nodiscard]] DrawnParts drawnParts(std::size_t projector) const;
 
   /// The desktop's pictures, where there are any: that of the middle, or the left eye's, the right one's and perhaps
@@ -67,19 +70,23 @@ class ModelWall {
     std::size_t renderer = 0;  // of two passes: which of warps_
     std::size_t output = 0;
   };
-  /// The second pass for one eye's picture.
+  /// The second pass for one eye's picture of the desktop, or for a dense projector's close-up.
   struct Warp {
-    std::size_t desktop = 0;  // output of scene_
+    std::size_t picture = 0;  // output of scene_
     std::unique_ptr<WallRenderer> renderer;
   };
   void addProjectors(const std::filesystem::path& folder, std::vector<ModelOutput>& outputs);
+  void addCloseUps(std::vector<ModelOutput>& outputs);
   void addDesktops(std::vector<ModelOutput>& outputs);
+  [[nodiscard]] ModelOutput pictureFor(Eye eye, devices::Size resolution) const;
   void makeWarps(devices::GlContext& context);
+  void addWarp(devices::GlContext& context, std::size_t picture, const std::vector<OutputPlan>& plans);
 
   const WallPlan& wall_;
   ModelWallOptions options_;
   std::vector<Eye> eyes_;  // of each projector
   std::vector<OnePassFit> fits_;
+  std::vector<std::optional<CloseUp>> closeUps_;  // of two passes; they are scene_'s first outputs
   std::vector<Eye> desktops_;
   std::size_t firstDesktop_ = 0;
   std::unique_ptr<ModelRenderer> scene_;

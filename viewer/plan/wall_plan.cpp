@@ -62,6 +62,17 @@ WarpMesh toWarpMesh(const calib::PatchMesh& mesh, const std::vector<int>& layers
   return warp;
 }
 
+/// Of a screen that is not flat.
+void addMesh(OutputPlan& plan, const calib::ProjectorCalibration& projector, const calib::Display& display,
+             const Box& shown) {
+  try {
+    const ShownPatches cut = patchesOf(TileLayout(plan.desktop), shown);
+    plan.mesh = toWarpMesh(calib::buildPatchMesh(calib::ProjectorMapping(projector), display, cut.patches), cut.layers);
+  } catch (const calib::GeometryError& error) {
+    throw PlanError("projector " + projector.name + ": " + error.what() + "; calibrate it again");
+  }
+}
+
 /// The codes of a desktop that is scaled reach a flat screen as those of one that is not: without its response.
 void showFlat(OutputPlan& plan, const TileLayout& layout, const Placement& placement, glm::ivec2 screenAt) {
   plan.exactShown = placement.shown;
@@ -131,35 +142,38 @@ std::vector<OutputPlan> WallPlan::outputsFor(devices::Size desktop) const {
 
 OutputPlan WallPlan::outputFor(std::size_t index, devices::Size desktop) const {
   const auto& projector = *projectors_[index];
-  const auto& light = light_[index];
-  OutputPlan plan{
-      .name = projector.name,
-      .resolution = projector.resolution,
-      .desktop = desktop,
-      .colour = light.colour,
-      .alpha = light.alpha,
-      .gain = light.gain,
-      .black = light.black,
-      .largestBlack = light.largestBlack,
-      .inverseResponse = light.inverseResponse,
-      .transfer = wall_.transfer == calib::Transfer::kSrgb ? DesktopTransfer::kSrgb : DesktopTransfer::kLinear,
-      .filter = filterOf(wall_.desktop.filter),
-      .filterDomain =
-          wall_.desktop.filterDomain == calib::FilterDomain::kLinear ? FilterDomain::kLinear : FilterDomain::kSrgb};
+  OutputPlan plan = lightFor(index, desktop);
   const Placement placement = placementOf(desktop);
-  const TileLayout layout(desktop);
   if (projector.flatAt) {
-    showFlat(plan, layout, placement, *projector.flatAt);
-    return plan;
-  }
-  const calib::ProjectorMapping mapping(projector);
-  try {
-    const ShownPatches shown = patchesOf(layout, placement.shown);
-    plan.mesh = toWarpMesh(calib::buildPatchMesh(mapping, displayOf(desktop), shown.patches), shown.layers);
-  } catch (const calib::GeometryError& error) {
-    throw PlanError("projector " + projector.name + ": " + error.what() + "; calibrate it again");
+    showFlat(plan, TileLayout(desktop), placement, *projector.flatAt);
+  } else {
+    addMesh(plan, projector, displayOf(desktop), placement.shown);
   }
   return plan;
+}
+
+OutputPlan WallPlan::outputFor(std::size_t index, const calib::Display& part) const {
+  OutputPlan plan = lightFor(index, part.resolution);
+  addMesh(plan, *projectors_.at(index), part, boxOf(part.resolution));
+  return plan;
+}
+
+OutputPlan WallPlan::lightFor(std::size_t index, devices::Size desktop) const {
+  const auto& projector = *projectors_.at(index);
+  const auto& light = light_[index];
+  return {.name = projector.name,
+          .resolution = projector.resolution,
+          .desktop = desktop,
+          .colour = light.colour,
+          .alpha = light.alpha,
+          .gain = light.gain,
+          .black = light.black,
+          .largestBlack = light.largestBlack,
+          .inverseResponse = light.inverseResponse,
+          .transfer = wall_.transfer == calib::Transfer::kSrgb ? DesktopTransfer::kSrgb : DesktopTransfer::kLinear,
+          .filter = filterOf(wall_.desktop.filter),
+          .filterDomain =
+              wall_.desktop.filterDomain == calib::FilterDomain::kLinear ? FilterDomain::kLinear : FilterDomain::kSrgb};
 }
 
 }  // namespace pixelflex::viewer
