@@ -1,8 +1,8 @@
 # Servers, X clients and screenshots for every test that needs a real desktop.
 pkg_check_modules(X11 REQUIRED IMPORTED_TARGET x11)
 pixelflex_library(pixelflex_test_support
-  HEADERS support/certificates.h support/cut_relay.h support/desktop_mirror.h support/fake_vnc_server.h support/process.h support/slow_relay.h support/temporary_folder.h support/x_servers.h
-  SOURCES support/certificates.cpp support/cut_relay.cpp support/desktop_mirror.cpp support/fake_vnc_server.cpp support/process.cpp support/slow_relay.cpp support/temporary_folder.cpp
+  HEADERS support/certificates.h support/cut_relay.h support/desktop_mirror.h support/fake_vnc_server.h support/free_port.h support/process.h support/slow_relay.h support/temporary_folder.h support/x_servers.h
+  SOURCES support/certificates.cpp support/cut_relay.cpp support/desktop_mirror.cpp support/fake_vnc_server.cpp support/free_port.cpp support/process.cpp support/slow_relay.cpp support/temporary_folder.cpp
     support/x_grab.cpp support/x_servers.cpp
   PUBLIC pixelflex_image pixelflex_vnc
   PRIVATE PkgConfig::X11)

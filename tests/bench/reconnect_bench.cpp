@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "tests/bench/viewer_run.h"
+#include "tests/support/free_port.h"
 #include "tests/support/x_servers.h"
 #include "viewer/vnc/connector.h"
 

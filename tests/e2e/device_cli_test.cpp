@@ -9,6 +9,7 @@
 #include "calib/store/store.h"
 #include "tests/e2e/device_room.h"
 #include "tests/e2e/programs.h"
+#include "tests/support/free_port.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support_devices/bridges.h"

@@ -2,6 +2,7 @@
 
 #include "tests/e2e/programs.h"
 #include "tests/support/fake_vnc_server.h"
+#include "tests/support/free_port.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/x_servers.h"
 

@@ -51,6 +51,19 @@ void DesktopMirror::pumpFor(std::chrono::milliseconds time) {
   pumpUntil([end] { return std::chrono::steady_clock::now() >= end; }, time + std::chrono::seconds(1));
 }
 
+bool DesktopMirror::pumpUntilStill(std::chrono::milliseconds quiet, std::chrono::milliseconds timeout) {
+  auto since = std::chrono::steady_clock::now();
+  std::uint64_t seen = updates_;
+  return pumpUntil(
+      [&] {
+        const auto now = std::chrono::steady_clock::now();
+        if (updates_ != seen) since = now;
+        seen = updates_;
+        return now - since >= quiet;
+      },
+      timeout);
+}
+
 bool DesktopMirror::pumpUntilEqual(const std::string& display, std::chrono::milliseconds timeout) {
   return pumpUntil([&] { return !desktop_.empty() && desktop_ == grabRoot(display); }, timeout);
 }

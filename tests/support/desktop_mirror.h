@@ -30,6 +30,9 @@ class DesktopMirror {
   bool pumpUntil(const std::function<bool()>& done, std::chrono::milliseconds timeout = std::chrono::seconds(20));
   /// Takes whatever arrives during `time`.
   void pumpFor(std::chrono::milliseconds time);
+  /// Takes what arrives until nothing has for `quiet`; false if that never comes.
+  bool pumpUntilStill(std::chrono::milliseconds quiet = std::chrono::milliseconds(300),
+                      std::chrono::milliseconds timeout = std::chrono::seconds(20));
   /// Waits until the desktop is equal to the screen of the X server, bit for bit.
   bool pumpUntilEqual(const std::string& display, std::chrono::milliseconds timeout = std::chrono::seconds(20));
 

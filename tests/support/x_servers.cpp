@@ -1,9 +1,7 @@
 #include "tests/support/x_servers.h"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <array>
@@ -14,6 +12,8 @@
 #include <stdexcept>
 #include <system_error>
 #include <thread>
+
+#include "tests/support/free_port.h"
 
 namespace pixelflex::testing {
 namespace {
@@ -141,19 +141,6 @@ X11vncServer::X11vncServer(devices::Size size) : x_([size](const TemporaryFolder
       "-quiet"};
   x11vnc_ = std::make_unique<Process>(command, ProcessOptions{{}, x_.folder() / "x11vnc.log"});
   tcpAddress_ = "127.0.0.1::" + std::to_string(waitForPort(*x11vnc_, flag));
-}
-
-int freePort() {
-  const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t length = sizeof address;
-  const bool bound = ::bind(socket, reinterpret_cast<const sockaddr*>(&address), length) == 0 &&
-                     ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &length) == 0;
-  ::close(socket);
-  if (!bound) throw std::runtime_error("no free TCP port");
-  return ntohs(address.sin_port);
 }
 
 }  // namespace pixelflex::testing

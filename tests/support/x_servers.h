@@ -78,10 +78,6 @@ class X11vncServer {
   std::string tcpAddress_;
 };
 
-/// A TCP port of 127.0.0.1 at which nothing listens now. Somebody else may take it at any moment: whoever uses one to
-/// listen must be ready to try again.
-[[nodiscard]] int freePort();
-
 /// Fills the root window with noise, which no codec makes small.
 void paintNoise(const std::string& display, unsigned seed);
 

@@ -1,9 +1,5 @@
 #include "tests/support_devices/bridges.h"
 
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -12,16 +8,10 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/free_port.h"
+
 namespace pixelflex::testing {
 namespace {
-
-sockaddr_in localAddress(int port) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<in_port_t>(port));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  return address;
-}
 
 /// Without knocking: a bridge would open its device for that, beside the connection that is meant.
 bool isListening(int port) {
@@ -43,16 +33,6 @@ std::string ser2netSettings(Bridge::Kind kind, int port, const std::string& devi
 }
 
 }  // namespace
-
-int freePort() {
-  const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_in address = localAddress(0);
-  socklen_t size = sizeof address;
-  ::bind(socket, reinterpret_cast<sockaddr*>(&address), size);
-  ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size);
-  ::close(socket);
-  return ntohs(address.sin_port);
-}
 
 void waitForPort(int port) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);

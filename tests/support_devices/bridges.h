@@ -9,8 +9,6 @@
 
 namespace pixelflex::testing {
 
-/// A TCP port of 127.0.0.1 that nothing listens at.
-[[nodiscard]] int freePort();
 /// Until something listens there. Throws std::runtime_error after a generous time.
 void waitForPort(int port);
 

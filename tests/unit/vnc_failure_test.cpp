@@ -14,6 +14,7 @@
 
 #include "tests/support/desktop_mirror.h"
 #include "tests/support/fake_vnc_server.h"
+#include "tests/support/free_port.h"
 #include "tests/support/x_servers.h"
 
 namespace pixelflex::viewer {
