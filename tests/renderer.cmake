@@ -8,6 +8,7 @@ pixelflex_test(renderer_coverage_test LABEL gl SOURCES
     gl/coverage_test.cpp gl/plan_drawing_test.cpp gl/bent_frames.cpp gl/bent_frames.h gl/mesh_count.cpp gl/mesh_count.h
   LINK pixelflex_plan pixelflex_reference PkgConfig::EPOXY)
 pixelflex_test(renderer_damage_test LABEL gl SOURCES gl/damage_test.cpp LINK pixelflex_renderer pixelflex_reference)
+pixelflex_test(renderer_upload_test LABEL gl SOURCES gl/upload_path_test.cpp LINK pixelflex_renderer pixelflex_reference)
 pixelflex_test(renderer_overlay_test LABEL gl SOURCES gl/overlay_test.cpp LINK pixelflex_renderer pixelflex_reference)
 pixelflex_test(renderer_light_test LABEL gl SOURCES gl/light_test.cpp gl/dither_test.cpp
   LINK pixelflex_renderer pixelflex_reference)

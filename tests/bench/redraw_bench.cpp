@@ -19,6 +19,7 @@
 #include "tests/bench/curves.h"
 #include "tests/gl/plans.h"
 #include "viewer/renderer/textures.h"
+#include "viewer/renderer/upload_path.h"
 #include "viewer/renderer/wall_renderer.h"
 
 namespace pixelflex::testing {
@@ -290,6 +291,13 @@ void corners() {
                                after.bytesUploaded - before.bytesUploaded, after.pixelsDrawn - before.pixelsDrawn));
 }
 
+/// What the viewer measures at its start to choose how the desktop's pixels reach the GPU.
+void uploads() {
+  devices::HeadlessContext context;
+  const auto rates = viewer::measureUploads(context);
+  print("uploads", fmt::format(R"("paths": "{}")", viewer::describeUploads(rates)));
+}
+
 /// One 64x64 change in the middle of the first projector, in upload, marking and drawing.
 void smallChange(int rounds, Size largeDesktop) {
   const auto boxIn = [](Size desktop, int columns, int rows) {
@@ -398,7 +406,7 @@ std::vector<Curve> curves(int rounds, Size largest) {
 int main(int argc, char** argv) {
   using namespace pixelflex::testing;
   int rounds = 15;
-  std::vector<std::string> what{"corners", "change", "redraw", "everything"};
+  std::vector<std::string> what{"uploads", "corners", "change", "redraw", "everything"};
   bool tiny = false;
   std::string picture;
   CLI::App app("What updates and redraws cost in the renderer. A line of JSON for each figure; medians.");
@@ -410,6 +418,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   const auto wanted = [&what](const char* name) { return std::ranges::find(what, name) != what.end(); };
   try {
+    if (wanted("uploads")) uploads();
     if (wanted("corners")) corners();
     const Size largest = tiny ? Size{4096, 2048} : Size{16384, 8192};
     if (wanted("change")) smallChange(rounds, largest);

@@ -38,6 +38,7 @@ TEST_F(ViewStats, LinesTellOfEveryStage) {
   EXPECT_TRUE(std::regex_search(shown.text, std::regex(line + "total" + triple + "\n"))) << shown.text;
   EXPECT_TRUE(std::regex_search(shown.text, std::regex(R"(stats: the first picture \d+\.\d{3} s after the start\n)")))
       << shown.text;
+  EXPECT_TRUE(std::regex_search(shown.text, std::regex(R"x(stats: uploads from \S.* GB/s \(.*\)\n)x"))) << shown.text;
 }
 
 TEST_F(ViewStats, JsonTellsTheSum) {
@@ -47,8 +48,8 @@ TEST_F(ViewStats, JsonTellsTheSum) {
   EXPECT_THAT(shown.text, ::testing::Not(HasSubstr("latency:")));
   const std::string json = textOf(file);
   const std::string figures = R"(\{"median":\d+\.\d{3},"p99":\d+\.\d{3},"max":\d+\.\d{3}\})";
-  std::string line =
-      R"(\{"first_picture_s":\d+\.\d{3}\}\n\{"seconds":\d+\.\d{3},"total":true,"updates":(\d+),"bytes_uploaded":(\d+),)";
+  std::string line = R"x(\{"first_picture_s":\d+\.\d{3},"uploads":"[^"]+ GB/s \([^"]+\)"\}\n)x";
+  line += R"(\{"seconds":\d+\.\d{3},"total":true,"updates":(\d+),"bytes_uploaded":(\d+),)";
   line += R"("outputs_drawn":([2-9]|\d\d+),"pixels_drawn":\d+,"timed_updates":(\d+),"stages_ms":\{)";
   for (const std::string stage : {"receive", "decode", "queue", "upload", "draw", "swap"}) {
     line += "\"" + stage + "\":" + figures + ",";

@@ -72,8 +72,10 @@ void StatsPrinter::shown(const WallView& view) {
   if (firstShown_ || !view.hasPicture()) return;
   firstShown_ = true;
   const double seconds = std::chrono::duration<double>(WallView::Clock::now() - started_).count();
-  if (prints_) fmt::print(stderr, "stats: the first picture {:.3f} s after the start\n", seconds);
-  if (json_) *json_ << fmt::format("{{\"first_picture_s\":{:.3f}}}", seconds) << std::endl;
+  const std::string uploads = describeUploads(view.uploads());
+  if (prints_)
+    fmt::print(stderr, "stats: the first picture {:.3f} s after the start\nstats: uploads from {}\n", seconds, uploads);
+  if (json_) *json_ << fmt::format(R"({{"first_picture_s":{:.3f},"uploads":"{}"}})", seconds, uploads) << std::endl;
 }
 
 void StatsPrinter::printWork(const Account& account) const {

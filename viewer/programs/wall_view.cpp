@@ -66,9 +66,10 @@ WallView::WallView(const ViewOptions& options, const WallPlan& wall, ExpectedPla
     : options_(options),
       wall_(wall),
       expected_(std::move(expected)),
-      renderer_(context, {.bitsPerColour = options.depth}),
+      uploads_(measureUploads(context)),
+      renderer_(context, {.bitsPerColour = options.depth, .upload = fastestUpload(uploads_)}),
       picture_(renderer_, options.whenLost),
-      belt_(wake),
+      belt_(wake, renderer_.uploadMemory()),
       wake_(wake),
       source_(openSource()),
       reloader_(options, wall, wake) {

@@ -72,6 +72,8 @@ class WallView {
   [[nodiscard]] devices::Size desktop() const { return desktop_; }
 
   [[nodiscard]] WallRenderer& renderer() { return renderer_; }
+  /// As measured at the start.
+  [[nodiscard]] const std::vector<UploadRate>& uploads() const { return uploads_; }
   /// The one that is shown: the one given, or what a new calibration has put in its place, with the same projectors.
   [[nodiscard]] const WallPlan& wall() const { return reloaded_ ? *reloaded_ : wall_; }
   /// Null before the first connection.
@@ -111,6 +113,7 @@ class WallView {
   const WallPlan& wall_;
   std::shared_ptr<const WallPlan> reloaded_;
   ExpectedPlans expected_;  // until the first desktop
+  std::vector<UploadRate> uploads_;
   WallRenderer renderer_;
   LostPicture picture_;
   FrameBelt belt_;

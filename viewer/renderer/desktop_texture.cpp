@@ -14,20 +14,42 @@ std::size_t areaOf(const Box& box) {
   return static_cast<std::size_t>(box.area());
 }
 
+GLenum channelsOf(UploadPath::Order order) {
+  return order == UploadPath::Order::kBgra ? GL_BGRA : GL_RGBA;
+}
+
+/// Until the GPU has done what it was told. A driver that reads from a buffer does so when it likes.
+void waitForGpu() {
+  const GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  constexpr GLuint64 kSecond = 1'000'000'000;
+  while (glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kSecond) == GL_TIMEOUT_EXPIRED) continue;
+  glDeleteSync(fence);
+}
+
 GLenum texelType(TexelFormat format) {
   return format == TexelFormat::kRgba8 ? GL_UNSIGNED_BYTE : GL_FLOAT;
 }
 
 }  // namespace
 
-DesktopTexture::DesktopTexture(devices::Size desktop, TexelFormat format)
+DesktopTexture::DesktopTexture(devices::Size desktop, TexelFormat format, UploadPath::Order order,
+                               const UploadMemory* memory)
     : layout_(desktop),
       format_(format),
+      memory_(memory),
       texture_(devices::GlTexture::create(GL_TEXTURE_2D_ARRAY)),
       prepared_(static_cast<std::size_t>(layout_.count()), false) {
   allocate();
   glTextureParameteri(texture_.get(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(texture_.get(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  setOrder(order);
+}
+
+void DesktopTexture::setOrder(UploadPath::Order order) {
+  order_ = order;
+  const bool exchanged = order == UploadPath::Order::kBgra;
+  glTextureParameteri(texture_.get(), GL_TEXTURE_SWIZZLE_R, exchanged ? GL_BLUE : GL_RED);
+  glTextureParameteri(texture_.get(), GL_TEXTURE_SWIZZLE_B, exchanged ? GL_RED : GL_BLUE);
 }
 
 void DesktopTexture::allocate() {
@@ -56,13 +78,19 @@ void DesktopTexture::upload(std::span<const Box> boxes, std::span<const std::byt
   if (expected != pixels.size()) {
     throw RendererError(fmt::format("an update brings {} bytes for boxes of {} bytes", pixels.size(), expected));
   }
+  const auto mapped = memory_ == nullptr ? std::nullopt : memory_->offsetOf(pixels.data());
+  if (mapped) glBindBuffer(GL_PIXEL_UNPACK_BUFFER, memory_->buffer());
+  // With a buffer bound GL takes the offset into it for an address.
+  const std::byte* rows = mapped ? reinterpret_cast<const std::byte*>(*mapped) : pixels.data();  // NOLINT
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  std::size_t begin = 0;
   for (const auto& box : boxes) {
-    if (!box.empty()) uploadBox(box, pixels.data() + begin);
-    begin += areaOf(box) * bytesPerTexel();
+    if (!box.empty()) uploadBox(box, rows);
+    rows += areaOf(box) * bytesPerTexel();
   }
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  if (!mapped) return;
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  waitForGpu();
 }
 
 void DesktopTexture::uploadBox(const Box& box, const std::byte* rows) {
@@ -74,12 +102,14 @@ void DesktopTexture::uploadBox(const Box& box, const std::byte* rows) {
     prepared_[static_cast<std::size_t>(part.layer)] = true;
     const auto skipped = std::int64_t{from.top - box.top} * box.width() + (from.left - box.left);
     glTextureSubImage3D(texture_.get(), 0, part.texel.x, part.texel.y, part.layer, from.width(), from.height(), 1,
-                        GL_RGBA, texelType(format_), rows + static_cast<std::size_t>(skipped) * bytesPerTexel());
+                        channelsOf(order_), texelType(format_),
+                        rows + static_cast<std::size_t>(skipped) * bytesPerTexel());
     bytesUploaded_ += areaOf(from) * bytesPerTexel();
   }
 }
 
 void DesktopTexture::copy(devices::GlName picture) {
+  setOrder(UploadPath::Order::kRgba);  // texels are copied as they are, and all of them
   for (const auto& part : layout_.cut(boxOf(layout_.desktop()))) {
     const auto& from = part.inDesktop;
     if (from != layout_.coverage(part.layer)) prepare(part.layer);
@@ -110,7 +140,8 @@ devices::Image8 DesktopTexture::read() {
     const auto origin = layout_.origin(layer);
     tile.resize(areaOf(patch) * 4);
     glGetTextureSubImage(texture_.get(), 0, patch.left - origin.x, patch.top - origin.y, layer, patch.width(),
-                         patch.height(), 1, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(tile.size()), tile.data());
+                         patch.height(), 1, channelsOf(order_), GL_UNSIGNED_BYTE, static_cast<GLsizei>(tile.size()),
+                         tile.data());
     const auto* texel = tile.data();
     for (int y = patch.top; y < patch.bottom; ++y) {
       for (int x = patch.left; x < patch.right; ++x, texel += 4) std::copy_n(texel, 3, &image.at(x, y));

@@ -7,6 +7,8 @@
 
 #include "devices/display/gl_handle.h"
 #include "devices/image/image.h"
+#include "viewer/renderer/upload_memory.h"
+#include "viewer/renderer/upload_path.h"
 #include "viewer/tiles/tile_layout.h"
 
 namespace pixelflex::viewer {
@@ -21,11 +23,14 @@ enum class TexelFormat {
 /// Needs its context current for every call.
 class DesktopTexture {
  public:
-  /// Throws RendererError when the GPU cannot hold that many tiles.
-  DesktopTexture(devices::Size desktop, TexelFormat format);
+  /// Codes travel in `order`. `memory` may be null, else it must outlive the texture. Throws RendererError when the GPU
+  /// cannot hold that many tiles.
+  DesktopTexture(devices::Size desktop, TexelFormat format, UploadPath::Order order = UploadPath::Order::kRgba,
+                 const UploadMemory* memory = nullptr);
 
   /// Rows of each box without padding, box after box, in the texture's format. What lies outside the desktop is left
-  /// out. Throws RendererError unless `pixels` has exactly the boxes' size.
+  /// out. Afterwards the pixels may be overwritten: where they lie in the upload memory, the GPU has read them. Throws
+  /// RendererError unless `pixels` has exactly the boxes' size.
   void upload(std::span<const Box> boxes, std::span<const std::byte> pixels);
 
   /// The same of a whole desktop that is in a GL_TEXTURE_2D of this format, row 0 at the top.
@@ -46,10 +51,14 @@ class DesktopTexture {
  private:
   [[nodiscard]] std::size_t bytesPerTexel() const { return format_ == TexelFormat::kRgba8 ? 4 : 16; }
   void allocate();
+  void setOrder(UploadPath::Order order);
+  /// `rows` is an offset into the buffer where one is bound.
   void uploadBox(const Box& box, const std::byte* rows);
 
   TileLayout layout_;
   TexelFormat format_;
+  UploadPath::Order order_ = UploadPath::Order::kRgba;
+  const UploadMemory* memory_;
   devices::GlTexture texture_;
   std::vector<bool> prepared_;  // per layer
   std::uint64_t bytesUploaded_ = 0;

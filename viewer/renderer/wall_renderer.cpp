@@ -44,6 +44,7 @@ FrameFormat formatOf(const RendererOptions& options) {
 WallRenderer::WallRenderer(devices::GlContext& context, RendererOptions options)
     : context_(context), options_(options) {
   context_.makeCurrent();
+  if (options.upload.memory == UploadPath::Memory::kMapped) uploadMemory_ = std::make_unique<UploadMemory>();
 }
 
 WallRenderer::~WallRenderer() {
@@ -75,7 +76,8 @@ bool WallRenderer::setPlans(const std::vector<OutputPlan>& plans) {
     if (desktop_) bytesOfOldDesktops_ += desktop_->bytesUploaded();
     outputs_.clear();
     desktop_.reset();  // first, so that two desktops never exist at once
-    desktop_.emplace(size, options_.measure ? TexelFormat::kRgba32F : TexelFormat::kRgba8);
+    desktop_.emplace(size, options_.measure ? TexelFormat::kRgba32F : TexelFormat::kRgba8,
+                     options_.measure ? UploadPath::Order::kRgba : options_.upload.order, uploadMemory_.get());
     updateOpen_ = false;
   }
   outputs_ = std::move(outputs);

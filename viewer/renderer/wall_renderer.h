@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct RendererOptions {
   /// own coordinates comes out as the coordinates that each projector pixel shows.
   bool measure = false;
   int bitsPerColour = 8;  // of the frames: 8 or 10; what is dithered is rounded to these
+  UploadPath upload;      // see fastestUpload()
 };
 
 /// Draws the desktop for every projector of one GPU. One thread, the context's. Each function makes the context current
@@ -48,6 +50,8 @@ class WallRenderer {
   /// RendererError and keeps the old plans when one is not sound; a desktop too large for the GPU leaves no plans.
   bool setPlans(const std::vector<OutputPlan>& plans);
 
+  /// Where a batch's pixels had best lie; null: anywhere. Belongs to the renderer.
+  [[nodiscard]] std::pmr::memory_resource* uploadMemory() { return uploadMemory_.get(); }
   /// Takes a part of an update: uploads its boxes and marks the projector pixels that show them. Boxes may reach out of
   /// the desktop. While an update is incomplete draw() waits. Needs plans.
   void upload(const Batch& batch);
@@ -111,6 +115,7 @@ class WallRenderer {
   devices::GlContext& context_;
   RendererOptions options_;
   WarpPrograms programs_;
+  std::unique_ptr<UploadMemory> uploadMemory_;  // before the desktop, which reads from it
   std::optional<DesktopTexture> desktop_;
   std::vector<Output> outputs_;
   Cursor cursor_;

@@ -23,7 +23,7 @@ class BatchWriter {
     std::size_t bytes = 0;  // of all its pixels
   };
   /// Appends the pixels of these rows, four bytes each.
-  using AppendRows = std::function<void(const Box& rows, std::vector<std::byte>& pixels)>;
+  using AppendRows = std::function<void(const Box& rows, PixelBytes& pixels)>;
 
   /// The update counts as decoded from here on. The belt must outlive this.
   BatchWriter(const Header& header, FrameBelt& belt, std::stop_token stop, AppendRows append);

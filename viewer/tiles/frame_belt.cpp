@@ -5,7 +5,13 @@
 
 namespace pixelflex::viewer {
 
-FrameBelt::FrameBelt(std::function<void()> wake) : wake_(std::move(wake)), slots_(kSlots) {
+FrameBelt::FrameBelt(std::function<void()> wake, std::pmr::memory_resource* memory) : wake_(std::move(wake)) {
+  slots_.reserve(kSlots);
+  for (std::size_t i = 0; i < kSlots; ++i) {
+    PixelBytes pixels(memory == nullptr ? std::pmr::new_delete_resource() : memory);
+    if (memory != nullptr) pixels.reserve(kMaxBytes);  // at once: to grow is to read, which such memory may be slow at
+    slots_.push_back({.pixels = std::move(pixels)});
+  }
   for (Batch& slot : slots_) free_.push_back(&slot);
 }
 

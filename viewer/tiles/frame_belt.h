@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory_resource>
 #include <mutex>
 #include <span>
 #include <stop_token>
@@ -14,6 +15,9 @@
 #include "viewer/tiles/box.h"
 
 namespace pixelflex::viewer {
+
+/// Rows of pixels in memory that their reader has chosen.
+using PixelBytes = std::pmr::vector<std::byte>;
 
 /// A part of one server update on its way to the GPU. Pixels are 4 bytes each, red, green, blue, undefined; the boxes'
 /// rows follow each other without padding, box after box.
@@ -24,7 +28,7 @@ struct Batch {
   std::chrono::nanoseconds decoding{0};            // processor time that it took in between
   devices::Size desktop;                           // a change of size makes the whole desktop damaged
   std::vector<Box> boxes;
-  std::vector<std::byte> pixels;
+  PixelBytes pixels;
   bool completesUpdate = false;  // only then may the wall change: never half an update
 };
 
@@ -37,8 +41,9 @@ class FrameBelt {
   /// Larger updates travel in several batches.
   static constexpr std::size_t kMaxBytes = std::size_t{4} << 20;
 
-  /// `wake` is called from the producer's thread after every publish and must be thread-safe.
-  explicit FrameBelt(std::function<void()> wake);
+  /// `wake` is called from the producer's thread after every publish and must be thread-safe. The slots' pixels lie in
+  /// `memory`, which must outlive the belt and is asked by both threads; null: on the heap, as they grow.
+  explicit FrameBelt(std::function<void()> wake, std::pmr::memory_resource* memory = nullptr);
 
   /// Network thread: a free batch, cleared; waits for one. Null when stopped.
   [[nodiscard]] Batch* acquire(std::stop_token stop);

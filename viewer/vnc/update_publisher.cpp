@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kBytesPerPixel = 4;
 
-void appendRows(const FrameView& frame, const Box& rows, std::vector<std::byte>& pixels) {
+void appendRows(const FrameView& frame, const Box& rows, PixelBytes& pixels) {
   const std::size_t rowBytes = static_cast<std::size_t>(rows.width()) * kBytesPerPixel;
   for (int y = rows.top; y < rows.bottom; ++y) {
     const std::size_t pixel =
@@ -30,7 +30,7 @@ bool publishUpdate(const FrameView& frame, const Update& update, FrameBelt& belt
                                    .decoding = update.decoding,
                                    .desktop = frame.size,
                                    .bytes = static_cast<std::size_t>(update.damage.area()) * kBytesPerPixel};
-  BatchWriter writer(header, belt, stop, [&frame](const Box& rows, std::vector<std::byte>& pixels) {
+  BatchWriter writer(header, belt, stop, [&frame](const Box& rows, PixelBytes& pixels) {
     assert(boxOf(frame.size).contains(rows));
     appendRows(frame, rows, pixels);
   });

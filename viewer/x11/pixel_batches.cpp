@@ -15,7 +15,7 @@ constexpr std::size_t kBytesPerPixel = 4;
 
 static_assert(std::endian::native == std::endian::little, "a batch's pixels begin with their red byte");
 
-void appendPixels(std::span<const std::byte> from, const PixelLayout& layout, std::vector<std::byte>& to) {
+void appendPixels(std::span<const std::byte> from, const PixelLayout& layout, PixelBytes& to) {
   const std::size_t begin = to.size();
   to.resize(begin + from.size());
   for (std::size_t i = 0; i < from.size(); i += kBytesPerPixel) {
@@ -37,7 +37,7 @@ bool publishPacked(const PackedUpdate& update, FrameBelt& belt, const std::stop_
                                    .desktop = update.desktop,
                                    .bytes = update.pixels.size()};
   std::span<const std::byte> left = update.pixels;
-  BatchWriter writer(header, belt, stop, [&](const Box& rows, std::vector<std::byte>& pixels) {
+  BatchWriter writer(header, belt, stop, [&](const Box& rows, PixelBytes& pixels) {
     const std::size_t bytes = static_cast<std::size_t>(rows.area()) * kBytesPerPixel;
     appendPixels(left.first(bytes), update.layout, pixels);
     left = left.subspan(bytes);
