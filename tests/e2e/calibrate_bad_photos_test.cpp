@@ -7,6 +7,7 @@
 #include "calib/store/store.h"
 #include "devices/image/photo_file.h"
 #include "devices/image/png_file.h"
+#include "tests/e2e/mini_wall.h"
 #include "tests/e2e/programs.h"
 #include "tests/support/temporary_folder.h"
 
@@ -67,9 +68,7 @@ Image8 blurred(Image8 photo, int reach) {
 class BadPhotosTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_EQ(runProgram("new", {wall().string(), "--rig", kMiniRig}).status, 0);
-    const Output run = runProgram("calibrate", {wall().string()});
-    ASSERT_EQ(run.status, 0) << run.text;
+    makeMiniWall(wall());
     fs::copy(wall() / "captures", good(), fs::copy_options::recursive);
     stored_ = filesOf(wall());
     knowCamera();

@@ -7,6 +7,7 @@
 #include "calib/store/store.h"
 #include "devices/image/photo_file.h"
 #include "devices/image/png_file.h"
+#include "tests/e2e/mini_wall.h"
 #include "tests/e2e/programs.h"
 #include "tests/support/temporary_folder.h"
 
@@ -20,9 +21,7 @@ namespace fs = std::filesystem;
 class PhotosTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_EQ(runProgram("new", {wall().string(), "--rig", kMiniRig}).status, 0);
-    const Output run = runProgram("calibrate", {wall().string()});
-    ASSERT_EQ(run.status, 0) << run.text;
+    makeMiniWall(wall());
     fs::copy(wall() / "captures", photos(), fs::copy_options::recursive);
     stored_ = textOf(wall() / "calibration.yaml");
   }

@@ -2,6 +2,7 @@
 
 #include "calib/simulate/simulated_wall.h"
 #include "calib/store/store.h"
+#include "tests/e2e/mini_wall.h"
 #include "tests/e2e/programs.h"
 #include "tests/support/temporary_folder.h"
 
@@ -16,9 +17,7 @@ namespace fs = std::filesystem;
 class RepairTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_EQ(runProgram("new", {wall().string(), "--rig", kMiniRig}).status, 0);
-    const Output run = calibrate({});
-    ASSERT_EQ(run.status, 0) << run.text;
+    makeMiniWall(wall());
   }
   Output calibrate(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), wall().string());

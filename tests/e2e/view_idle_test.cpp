@@ -5,6 +5,7 @@
 #include <iostream>
 #include <thread>
 
+#include "tests/e2e/mini_wall.h"
 #include "tests/e2e/programs.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/x_servers.h"
@@ -67,9 +68,7 @@ TEST(ViewIdle, AWallInWindowsSleeps) {
   const TemporaryFolder folder;
   XvncServer server({.size = {1280, 480}});
   const std::string wall = (folder / "wall").string();
-  ASSERT_EQ(runProgram("new", {wall, "--rig", kMiniRig}).status, 0);
-  const Output calibrated = runProgram("calibrate", {wall});
-  ASSERT_EQ(calibrated.status, 0) << calibrated.text;
+  makeMiniWall(wall);
   X11vncServer room({1500, 1000});
   expectIdle(wall, server.unixAddress(), {}, {.environment = {"DISPLAY=" + room.x().display()}, .log = folder / "log"});
 }

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "calib/store/store.h"
+#include "tests/e2e/mini_wall.h"
 #include "tests/e2e/programs.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/x_servers.h"
@@ -99,8 +100,7 @@ TEST_F(InputTest, ViewOnlySendsNothing) {
 }
 
 TEST_F(InputTest, TheRoomOfASimulatedWallTakesThePointerThroughTheCalibration) {
-  ASSERT_EQ(runProgram("new", {wall().string(), "--rig", kMiniRig}).status, 0);
-  ASSERT_EQ(runProgram("calibrate", {wall().string()}).status, 0);
+  makeMiniWall(wall());
   const auto display = calib::loadCalibration(wall()).display.value();
   XvncServer server({.size = display.resolution});
   const auto viewer = startViewer(server.unixAddress());
