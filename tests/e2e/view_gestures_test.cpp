@@ -99,6 +99,29 @@ TEST_F(GesturesTest, TheEscapeKeysWorkOnALayoutWithoutLatinLetters) {
   EXPECT_EQ(viewer_->wait(std::chrono::seconds(1)), 0);
 }
 
+TEST_F(GesturesTest, AShortcutShowsTheStatisticsAndTakesThemAway) {
+  start();
+  watchDesktopKeys();
+  waitForKeys();
+  moveTo(850, 150);  // away from the first screen
+  paintDesktop("#204060");
+  desktop_->x().query({"xdotool", "search", "--name", "Event Tester", "windowunmap"});
+  const auto written = [&] {
+    const devices::Image8 picture = grabRoot(screen_.display());
+    int pixels = 0;
+    for (int y = 90; y < 90 + kHeight; ++y) {
+      for (int x = 100; x < 100 + kWidth; ++x) pixels += picture.at(x, y, 0) != 0x20 || picture.at(x, y, 1) != 0x40;
+    }
+    return pixels;
+  };
+  ASSERT_TRUE(comesTrue([&] { return written() == 0; })) << log();
+  key("ctrl+alt+s");
+  EXPECT_TRUE(comesTrue([&] { return written() > 500; })) << log();
+  key("ctrl+alt+s");
+  EXPECT_TRUE(comesTrue([&] { return written() == 0; })) << log();
+  EXPECT_EQ(desktopHas("keysym 0x73, s"), 0U) << "the shortcut is not the desktop's";
+}
+
 TEST_F(GesturesTest, TheGrabTakesTheKeysOfOthersUntilItIsLetGo) {
   XShortcut shortcut(screen_.display());
   start({"--grab"});

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "viewer/plan/wall_plan.h"
 #include "viewer/programs/view_options.h"
+#include "viewer/programs/viewer_processes.h"
 
 namespace pixelflex::viewer {
 
@@ -20,10 +20,9 @@ struct DisplayShare {
 [[nodiscard]] std::vector<DisplayShare> sharesOfDisplays(const WallPlan& wall);
 
 /// Windows of one process are on one display, so each display gets a process of its own, with its own connection to the
-/// desktop: `view` is called there. One that fails is said and the others go on; when a person ends one of them, all
-/// end. Returns the exit status. Call it before there are other threads. Throws ViewError, and PasswordNeeded when a
-/// process needs one.
-int runViewers(const ViewOptions& options, const std::vector<DisplayShare>& shares,
-               const std::function<int(const ViewOptions&)>& view);
+/// desktop: `view` is called there. The control window, and the wish for another size of the desktop, are those of the
+/// first; an X server's clipboard is that of the first there. See ViewerProcesses for what becomes of them, for what is
+/// returned and thrown.
+int runViewers(const ViewOptions& options, const std::vector<DisplayShare>& shares, ViewerProcesses::View view);
 
 }  // namespace pixelflex::viewer

@@ -29,7 +29,7 @@ void Input::take(devices::Window& window, Map desktopFromWindow, std::function<v
                       .scroll = [this](glm::dvec2 steps) { scroll(steps); },
                       .key = [this](const devices::KeyStroke& stroke) { key(stroke); },
                       .focus = [this, pane](bool focused) { focus(pane, focused); },
-                      .close = onQuit_,
+                      .close = commands_.quit,
                       .redraw = std::move(redraw)});
 }
 
@@ -142,15 +142,17 @@ void Input::key(const devices::KeyStroke& stroke) {
   view_.key(keysym, pressed);
 }
 
-/// With Ctrl and Alt: Q leaves, G lets pointer and keyboard go.
+/// With Ctrl and Alt: Q leaves, G lets pointer and keyboard go, S shows the statistics.
 bool Input::takenAsCommand(const devices::KeyStroke& stroke) {
   if (!std::ranges::any_of(modifiers_, isControl) || !std::ranges::any_of(modifiers_, isAlt)) return false;
-  if (stroke.letter != 'q' && stroke.letter != 'g') return false;
+  if (stroke.letter != 'q' && stroke.letter != 'g' && stroke.letter != 's') return false;
   command_ = stroke.keysym;
   // What is held down must not stay so on the desktop.
   for (const std::uint32_t modifier : modifiers_) view_.key(modifier, false);
   if (stroke.letter == 'q') {
-    onQuit_();
+    commands_.quit();
+  } else if (stroke.letter == 's') {
+    commands_.stats();
   } else {
     const bool take = !locked_ && !grabs_;
     setGrab(take);

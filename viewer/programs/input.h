@@ -17,8 +17,13 @@ namespace pixelflex::viewer {
 /// Pointer and keyboard of all windows of a wall, on their way to the desktop. Main thread.
 class Input {
  public:
-  /// `view` must outlive this and the windows. `onQuit` is called for Ctrl+Alt+Q and closed windows.
-  Input(WallView& view, std::function<void()> onQuit) : view_(view), onQuit_(std::move(onQuit)) {}
+  /// What shortcuts do that are not the desktop's.
+  struct Commands {
+    std::function<void()> quit;   // Ctrl+Alt+Q, and closed windows
+    std::function<void()> stats;  // Ctrl+Alt+S
+  };
+  /// `view` must outlive this and the windows.
+  Input(WallView& view, Commands commands) : view_(view), commands_(std::move(commands)) {}
 
   /// Takes a window's pointer and keys; the window must outlive this. `desktopFromWindow` finds the desktop pixel under
   /// a window pixel. `joins`: a drag out of this window goes on in the next one that joins, and lockPointer() holds.
@@ -52,7 +57,7 @@ class Input {
   void followFocus();
 
   WallView& view_;
-  std::function<void()> onQuit_;
+  const Commands commands_;
   std::vector<Pane> panes_;
   std::uint16_t buttons_ = 0;
   glm::dvec2 unscrolled_{0, 0};

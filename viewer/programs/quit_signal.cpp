@@ -8,7 +8,6 @@
 #include <utility>
 
 namespace pixelflex::viewer {
-namespace {
 
 sigset_t quitSignals() {
   sigset_t signals;
@@ -19,8 +18,6 @@ sigset_t quitSignals() {
   if (sigaction(SIGHUP, nullptr, &hangup) == 0 && hangup.sa_handler != SIG_IGN) sigaddset(&signals, SIGHUP);
   return signals;
 }
-
-}  // namespace
 
 QuitSignal::QuitSignal(std::function<void()> onQuit) : onQuit_(std::move(onQuit)) {
   const sigset_t signals = quitSignals();

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <atomic>
+#include <csignal>
 #include <functional>
 #include <thread>
 
 namespace pixelflex::viewer {
 
-/// Turns SIGINT, SIGTERM and, unless it is ignored as nohup does, SIGHUP into a flag and a call. Make it before any
+/// Those that end a program: SIGINT, SIGTERM and, unless it is ignored as nohup does, SIGHUP.
+[[nodiscard]] sigset_t quitSignals();
+
+/// Turns quitSignals() into a flag and a call. Make it before any
 /// other thread: the signals are blocked in every thread that starts later, and a thread of its own waits for them. One
 /// at a time.
 class QuitSignal {

@@ -29,11 +29,12 @@ RenderStats difference(RenderStats now, const RenderStats& before) {
 }  // namespace
 
 StatsPrinter::StatsPrinter(const ViewOptions& options)
-    : prints_(options.stats), overlays_(options.statsOverlay), started_(options.started) {
+    : prints_(options.stats), overlays_(options.statsOverlay), of_(options.statsOf), started_(options.started) {
   second_.due = begun_ + kWorkPeriod;
   tenSeconds_.due = begun_ + kStagesPeriod;
   if (!options.statsJson) return;
-  json_.emplace(*options.statsJson);
+  // A line is written at once, so that those of several processes do not mix.
+  json_.emplace(*options.statsJson, of_.empty() ? std::ios::out : std::ios::app);
   if (!*json_) throw ViewError("cannot write to " + *options.statsJson + ": give --stats-json another file");
 }
 
@@ -59,7 +60,7 @@ void StatsPrinter::printIfDue(WallView& view) {
   if ((prints_ || overlays_) && now >= second_.due) {
     const Account account = since(second_, view, now);
     if (prints_) printWork(account);
-    if (overlays_) showPanel(account, view);
+    if (overlays_ && account.stages.updates > 0) showPanel(account, view);
     second_ = markOf(view, now + kWorkPeriod);
   }
   if ((prints_ || json_) && now >= tenSeconds_.due) {
@@ -73,44 +74,62 @@ void StatsPrinter::shown(const WallView& view) {
   firstShown_ = true;
   const double seconds = std::chrono::duration<double>(WallView::Clock::now() - started_).count();
   const std::string uploads = describeUploads(view.uploads());
-  if (prints_)
-    fmt::print(stderr, "stats: the first picture {:.3f} s after the start\nstats: uploads from {}\n", seconds, uploads);
-  if (json_) *json_ << fmt::format(R"({{"first_picture_s":{:.3f},"uploads":"{}"}})", seconds, uploads) << std::endl;
+  if (prints_) {
+    const std::string head = headOf("stats", of_);
+    fmt::print(stderr, "{} the first picture {:.3f} s after the start\n{} uploads from {}\n", head, seconds, head,
+               uploads);
+  }
+  if (json_) {
+    *json_ << fmt::format(R"({{{}"first_picture_s":{:.3f},"uploads":"{}"}})", jsonHeadOf(of_), seconds, uploads)
+           << std::endl;
+  }
 }
 
 void StatsPrinter::printWork(const Account& account) const {
   const RenderStats& done = account.render;
   if (done.bytesUploaded == 0 && done.outputsDrawn == 0) return;
   fmt::print(stderr,
-             "stats: {:7.1f} s  updates {:4}  uploaded {:9.3f} MB  outputs drawn {:4}  pixels {:9.3f} M  "
+             "{} {:7.1f} s  updates {:4}  uploaded {:9.3f} MB  outputs drawn {:4}  pixels {:9.3f} M  "
              "upload {:6.1f} ms  draw {:6.1f} ms\n",
-             account.seconds, account.updates, static_cast<double>(done.bytesUploaded) / 1e6, done.outputsDrawn,
-             static_cast<double>(done.pixelsDrawn) / 1e6, milliseconds(done.uploadTime), milliseconds(done.drawTime));
+             headOf("stats", of_), account.seconds, account.updates, static_cast<double>(done.bytesUploaded) / 1e6,
+             done.outputsDrawn, static_cast<double>(done.pixelsDrawn) / 1e6, milliseconds(done.uploadTime),
+             milliseconds(done.drawTime));
 }
 
 void StatsPrinter::showPanel(const Account& account, WallView& view) {
   WallRenderer& renderer = view.renderer();
-  if (account.stages.updates == 0 || renderer.outputCount() == 0) return;
+  if (renderer.outputCount() == 0) return;
   constexpr int kWidthPerScale = 800;  // of projectors whose pixels are about as large
   const int scale = std::max(1, renderer.outputResolution(0).width / kWidthPerScale);
   renderer.setPanel(0, textPanel(panelText(account), scale));
 }
 
+void StatsPrinter::toggleOverlay(WallView& view) {
+  overlays_ = !overlays_;
+  const Time now = WallView::Clock::now();
+  if (overlays_) {
+    showPanel(since({}, view, now), view);
+    second_ = markOf(view, now + kWorkPeriod);
+  } else {
+    view.renderer().setPanel(0, {});
+  }
+}
+
 void StatsPrinter::printStages(const Account& account) {
   if (account.stages.updates == 0) return;
   if (prints_) {
-    fmt::print(stderr, "latency: {:.1f} s  updates {}  median/p99/max ms: {}\n", account.seconds,
+    fmt::print(stderr, "{} {:.1f} s  updates {}  median/p99/max ms: {}\n", headOf("latency", of_), account.seconds,
                account.stages.updates, stagesText(account.stages));
   }
-  if (json_) *json_ << jsonOf(account) << std::endl;
+  if (json_) *json_ << jsonOf(account, of_) << std::endl;
 }
 
 void StatsPrinter::printTotal(WallView& view) {
   Account total = since({}, view, WallView::Clock::now());
   total.total = true;
   if (prints_) {
-    fmt::print(stderr, "stats: total updates {} uploaded {} bytes outputs drawn {} pixels {}\n", total.updates,
-               total.render.bytesUploaded, total.render.outputsDrawn, total.render.pixelsDrawn);
+    fmt::print(stderr, "{} total updates {} uploaded {} bytes outputs drawn {} pixels {}\n", headOf("stats", of_),
+               total.updates, total.render.bytesUploaded, total.render.outputsDrawn, total.render.pixelsDrawn);
   }
   if (prints_ || json_) printStages(total);
 }

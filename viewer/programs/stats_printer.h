@@ -3,6 +3,7 @@
 #include <chrono>
 #include <fstream>
 #include <optional>
+#include <string>
 
 #include "viewer/programs/stats_text.h"
 #include "viewer/programs/wall_view.h"
@@ -12,7 +13,8 @@ namespace pixelflex::viewer {
 /// `--stats`: a line on stderr each second in which something was uploaded or drawn, one each ten in which updates were
 /// shown on how long they took, one when the first picture is shown, and the sums at the end. `--stats=overlay`: a
 /// panel on the first projector, brought up to date each second in which updates were shown. `--stats-json`: the same
-/// with the first picture, each ten seconds and at the end.
+/// with the first picture, each ten seconds and at the end. Lines say of which display they are where there are
+/// several.
 class StatsPrinter {
  public:
   /// Throws ViewError when the file cannot be written.
@@ -24,6 +26,8 @@ class StatsPrinter {
   /// What the view has drawn is shown: tells of the first picture.
   void shown(const WallView& view);
   void printTotal(WallView& view);
+  /// Shows the panel, of all that has been done so far, or takes it away.
+  void toggleOverlay(WallView& view);
 
  private:
   using Time = WallView::Clock::time_point;
@@ -42,6 +46,7 @@ class StatsPrinter {
 
   bool prints_;
   bool overlays_;
+  const std::string of_;  // see ViewOptions::statsOf
   std::optional<std::ofstream> json_;
   const Time started_;
   bool firstShown_ = false;

@@ -33,7 +33,18 @@ std::vector<std::string> panelText(const Account& account) {
   return lines;
 }
 
-std::string jsonOf(const Account& account) {
+std::string headOf(const std::string& word, const std::string& display) {
+  return display.empty() ? word + ":" : word + " of " + display + ":";
+}
+
+std::string jsonHeadOf(const std::string& display) {
+  if (display.empty()) return {};
+  std::string escaped;
+  for (const char c : display) escaped += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+  return R"("display":")" + escaped + "\",";
+}
+
+std::string jsonOf(const Account& account, const std::string& display) {
   std::string stages;
   for (std::size_t i = 0; i < kStages; ++i) {
     const StageFigures& figures = account.stages.stages[i];
@@ -42,10 +53,10 @@ std::string jsonOf(const Account& account) {
                           milliseconds(figures.max));
   }
   return fmt::format(
-      R"({{"seconds":{:.3f},"total":{},"updates":{},"bytes_uploaded":{},"outputs_drawn":{},"pixels_drawn":{},)"
+      R"({{{}"seconds":{:.3f},"total":{},"updates":{},"bytes_uploaded":{},"outputs_drawn":{},"pixels_drawn":{},)"
       R"("timed_updates":{},"stages_ms":{{{}}}}})",
-      account.seconds, account.total, account.updates, account.render.bytesUploaded, account.render.outputsDrawn,
-      account.render.pixelsDrawn, account.stages.updates, stages);
+      jsonHeadOf(display), account.seconds, account.total, account.updates, account.render.bytesUploaded,
+      account.render.outputsDrawn, account.render.pixelsDrawn, account.stages.updates, stages);
 }
 
 }  // namespace pixelflex::viewer

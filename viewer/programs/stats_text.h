@@ -24,9 +24,14 @@ struct Account {
 /// A table of the stages for a panel, under the number of updates.
 [[nodiscard]] std::vector<std::string> panelText(const Account& account);
 
-/// One JSON object without line breaks:
+/// How a line begins: "stats:", or "stats of :1.0:" where there are several displays (else `display` is empty).
+[[nodiscard]] std::string headOf(const std::string& word, const std::string& display);
+/// A JSON object's first member, with its comma: "display", or nothing.
+[[nodiscard]] std::string jsonHeadOf(const std::string& display);
+
+/// One JSON object without line breaks, after jsonHeadOf():
 /// {"seconds":S,"total":false,"updates":N,"bytes_uploaded":N,"outputs_drawn":N,"pixels_drawn":N,"timed_updates":N,
 /// "stages_ms":{"receive":{"median":T,"p99":T,"max":T},…}}
-[[nodiscard]] std::string jsonOf(const Account& account);
+[[nodiscard]] std::string jsonOf(const Account& account, const std::string& display);
 
 }  // namespace pixelflex::viewer

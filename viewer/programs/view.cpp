@@ -73,7 +73,13 @@ int main(int argc, char** argv) {
       "server of this machine, x11:DISPLAY (x11::7).",
       "pixelflex-view"};
   app.set_version_flag("--version", PIXELFLEX_VERSION);
-  app.footer("Ctrl+Alt+Q ends it, on whatever layout of the keyboard.");
+  app.footer(
+      "In its windows, on whatever layout of the keyboard: Ctrl+Alt+Q ends it, Ctrl+Alt+S shows how long updates take "
+      "on "
+      "the first projector, Ctrl+Alt+G lets pointer and keyboard go, Ctrl twice shows where the pointer is.\n"
+      "Where projectors are on several X displays, each display has a process of its own, which is started again when "
+      "it "
+      "fails; all write their statistics, the control window and the wish for another size are the first one's.");
   app.add_option("WALL", options.wall, "the wall's folder")->required();
   std::string server;
   app.add_option("SERVER", server, "the VNC server, or the X server of this machine")->required();
@@ -167,9 +173,10 @@ int main(int argc, char** argv) {
                "print when the first picture is there, what was uploaded and drawn each second, and each ten how long "
                "every stage "
                "took; "
-               "--stats=overlay: shown on the first projector instead")
+               "--stats=overlay: shown on the first projector instead, as Ctrl+Alt+S does at any time")
       ->check(CLI::IsMember({"log", "overlay"}));
-  app.add_option("--stats-json", options.statsJson, "write the same to FILE, a JSON object a line")
+  app.add_option("--stats-json", options.statsJson,
+                 "write the same to FILE, a JSON object a line; with several X displays each line names its own")
       ->option_text("FILE");
   app.add_flag("--show-damage", options.showDamage, "show what is drawn again by borders that fade");
   try {

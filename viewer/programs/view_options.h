@@ -59,6 +59,7 @@ struct ViewOptions {
   bool statsOverlay = false;  // on the first projector
   bool showDamage = false;
   std::optional<std::string> statsJson;  // file
+  std::string statsOf;                   // the display, where there are several: then the file is added to
   int depth = 8;                         // bits for each colour of a projector's picture: 8 or 10
 };
 

@@ -72,7 +72,8 @@ class WallWindows {
         hidden_(loop_, {.title = "PixelFlex", .size = {16, 16}, .visible = false, .bitsPerColour = options.depth}),
         options_(atDepthOf(hidden_, options)),
         view_(options_, wall, std::move(plans_), hidden_, [this] { loop_.wake(); }),
-        input_(view_, [this] { quit_ = true; }),
+        stats_(options_),
+        input_(view_, {.quit = [this] { quit_ = true; }, .stats = [this] { stats_.toggleOverlay(view_); }}),
         projectors_(loop_, hidden_, view_, input_, options_.depth),
         watch_([this] {
           monitorsChanged_ = true;
@@ -91,24 +92,23 @@ class WallWindows {
   }
 
   int run(const QuitSignal& signal) {
-    StatsPrinter stats(options_);
     while (!quit_ && !signal.raised()) {
-      stats.printIfDue(view_);
+      stats_.printIfDue(view_);
       const auto step = view_.step();
       if (step.plansChanged) roomChanged_ = allSimulated();
       if (monitorsChanged_.exchange(false)) projectors_.follow(devices::listMonitors(loop_));
       present(step.drawn);
       presentRoom();
       view_.shown();
-      stats.shown(view_);
+      stats_.shown(view_);
       for (const auto& [text, selection] : step.copied) {
         if (const auto here = clipboards_.find(selection); here != clipboards_.end()) here->second.set(text);
       }
       if (step.bell) watch_.ringBell();
       if (screenshotDone()) break;
-      wait(stats.due());
+      wait(stats_.due());
     }
-    stats.printTotal(view_);
+    stats_.printTotal(view_);
     return 0;
   }
 
@@ -233,6 +233,7 @@ class WallWindows {
   devices::Window hidden_;
   ViewOptions options_;
   WallView view_;
+  StatsPrinter stats_;
   Input input_;
   ProjectorWindows projectors_;
   std::unique_ptr<devices::Window> controlWindow_;
