@@ -16,9 +16,7 @@ namespace fs = std::filesystem;
 /// A calibrated wall of two projectors, the second of which is then knocked.
 class RepairTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    makeMiniWall(wall());
-  }
+  void SetUp() override { makeMiniWall(wall()); }
   Output calibrate(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), wall().string());
     return runProgram("calibrate", std::move(arguments));
