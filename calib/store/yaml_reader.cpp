@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "calib/store/spelling.h"
 #include "calib/store/yaml_document.h"
 #include "calib/store/yaml_text.h"
 
@@ -15,35 +16,6 @@ namespace pixelflex::calib {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-std::size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replace = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({replace, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[b.size()];
-}
-
-/// The known key that somebody most probably meant; empty when none is near.
-std::string nearest(std::string_view key, const std::set<std::string>& known) {
-  std::string best;
-  std::size_t bestDistance = std::max<std::size_t>(2, key.size() / 3) + 1;
-  if (key.size() > 64) return best;
-  for (const auto& candidate : known) {
-    const std::size_t distance = editDistance(key, candidate);
-    if (distance < bestDistance && distance < candidate.size()) {
-      best = candidate;
-      bestDistance = distance;
-    }
-  }
-  return best;
-}
 
 std::string rangeText(double minimum, double maximum) {
   const bool low = std::isfinite(minimum);
@@ -120,7 +92,7 @@ void YamlReader::Node::refuseUnknownKeys() const {
     const YamlNode& member = state.document.nodes[child];
     if (known.contains(member.key)) continue;
     if (state.document.problems.size() > kMaxProblems) return;
-    const std::string suggestion = nearest(member.key, known);
+    const std::string suggestion = nearestWord(member.key, known);
     state.document.note({state.file, member.keyLine, member.keyColumn,
                          "unknown key " + quotedForMessage(member.key) +
                              (suggestion.empty() ? "" : "; did you mean \"" + suggestion + "\"?")});

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <limits>
 
-#include "devices/display/gl_context.h"
+#include "tests/gl/gl_test.h"
 #include "tests/gl/plans.h"
 #include "tests/support_image/image_near.h"
 #include "viewer/renderer/renderer_error.h"
@@ -17,15 +17,7 @@ namespace {
 using devices::Image8;
 using devices::Size;
 
-class DamageTest : public ::testing::Test {
- protected:
-  void TearDown() override {
-    context_.makeCurrent();
-    EXPECT_EQ(log_.take(), std::vector<std::string>{});
-  }
-  devices::HeadlessContext context_;
-  devices::GlDebugLog log_;
-};
+using DamageTest = testing::GlTest<>;
 
 /// Left and right half of the desktop, one projector each, a little turned.
 std::vector<OutputPlan> twoHalves(Size desktop) {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "devices/display/gl_context.h"
+#include "tests/gl/gl_test.h"
 #include "tests/gl/plans.h"
 #include "viewer/renderer/dither_tile.h"
 #include "viewer/renderer/wall_renderer.h"
@@ -98,13 +98,8 @@ double banding(const std::array<Light, 2>& frames, int code) {
   return std::sqrt(sum / static_cast<double>(light.samples().size()));
 }
 
-class DitherTest : public ::testing::Test {
+class DitherTest : public testing::GlTest<> {
  protected:
-  void TearDown() override {
-    context_.makeCurrent();
-    EXPECT_EQ(log_.take(), std::vector<std::string>{});
-  }
-
   std::array<Light, 2> rendered(int code, int bits, bool dither) {
     auto plans = blendedPair();
     for (auto& plan : plans) plan.dither = dither;
@@ -123,9 +118,6 @@ class DitherTest : public ::testing::Test {
     }
     return light;
   }
-
-  devices::HeadlessContext context_;
-  devices::GlDebugLog log_;
 };
 
 /// Blending in eight bits of light, then a table of 256 codes, as in PixelFlex's first description.

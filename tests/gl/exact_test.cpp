@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "devices/display/gl_context.h"
+#include "tests/gl/gl_test.h"
 #include "tests/gl/plans.h"
 #include "tests/support_image/image_near.h"
 #include "viewer/renderer/wall_renderer.h"
@@ -15,15 +15,7 @@ using devices::Image8;
 using devices::Size;
 using testing::imageNear;
 
-class ExactTest : public ::testing::Test {
- protected:
-  void TearDown() override {
-    context_.makeCurrent();
-    EXPECT_EQ(log_.take(), std::vector<std::string>{});
-  }
-  devices::HeadlessContext context_;
-  devices::GlDebugLog log_;
-};
+using ExactTest = testing::GlTest<>;
 
 OutputPlan exactPlan(const std::string& name, Size resolution, Size desktop, glm::ivec2 at) {
   OutputPlan plan;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "devices/display/gl_context.h"
+#include "tests/gl/gl_test.h"
 #include "tests/gl/plans.h"
 #include "viewer/renderer/one_to_one.h"
 #include "viewer/renderer/renderer_error.h"
@@ -97,13 +97,8 @@ bool clearOfEdges(const devices::Image<double>& frame, int x, int y) {
   return sum == 0 || sum == 9;
 }
 
-class LightTest : public ::testing::Test {
+class LightTest : public testing::GlTest<> {
  protected:
-  void TearDown() override {
-    context_.makeCurrent();
-    EXPECT_EQ(log_.take(), std::vector<std::string>{});
-  }
-
   WallRenderer& draw(const std::vector<OutputPlan>& plans, const Image8& desktop, int bits = 8) {
     renderer_.emplace(context_, RendererOptions{.bitsPerColour = bits});
     renderer_->setPlans(plans);
@@ -133,8 +128,6 @@ class LightTest : public ::testing::Test {
     return far;
   }
 
-  devices::HeadlessContext context_;
-  devices::GlDebugLog log_;
   std::optional<WallRenderer> renderer_;
 };
 

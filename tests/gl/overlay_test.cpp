@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "devices/display/gl_context.h"
+#include "tests/gl/gl_test.h"
 #include "tests/gl/plans.h"
 #include "tests/support_image/image_near.h"
 #include "viewer/renderer/text_panel.h"
@@ -17,7 +17,7 @@ using devices::Size;
 
 constexpr Size kSize{320, 240};
 
-class OverlayTest : public ::testing::Test {
+class OverlayTest : public testing::GlTest<> {
  protected:
   void show() {
     OutputPlan exact;
@@ -31,10 +31,6 @@ class OverlayTest : public ::testing::Test {
   void SetUp() override {
     show();
     for (std::size_t i = 0; i < plain_.size(); ++i) plain_.at(i) = renderer_.readOutput(i);
-  }
-  void TearDown() override {
-    context_.makeCurrent();
-    EXPECT_EQ(log_.take(), std::vector<std::string>{});
   }
   void expectPlain(std::size_t output) {
     EXPECT_TRUE(testing::imageNear(renderer_.readOutput(output), plain_.at(output), 0, "overlay-gone"));
@@ -54,8 +50,6 @@ class OverlayTest : public ::testing::Test {
     return {count, box};
   }
 
-  devices::HeadlessContext context_;
-  devices::GlDebugLog log_;
   WallRenderer renderer_{context_};
   Image8 desktop_ = testing::testDesktop(kSize);
   std::array<Image8, 2> plain_;

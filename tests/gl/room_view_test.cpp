@@ -1,5 +1,6 @@
 // The simulated wall on a screen, against sums done by hand.
 #include "viewer/renderer/room_view.h"
+#include "tests/gl/gl_test.h"
 
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
@@ -17,15 +18,7 @@ using devices::GlTexture;
 using devices::Image8;
 using devices::Size;
 
-class RoomViewTest : public ::testing::Test {
- protected:
-  void TearDown() override {
-    context_.makeCurrent();
-    EXPECT_EQ(log_.take(), std::vector<std::string>{});
-  }
-  devices::HeadlessContext context_;
-  devices::GlDebugLog log_;
-};
+using RoomViewTest = testing::GlTest<>;
 
 /// A projector that lights the wall's box one to one with gamma 2 and a leak.
 RoomMesh plainMesh(Size resolution, glm::vec2 corner, float radiance, float leak) {

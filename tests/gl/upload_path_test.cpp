@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "devices/display/gl_context.h"
+#include "tests/gl/gl_test.h"
 #include "tests/gl/plans.h"
 #include "viewer/renderer/upload_memory.h"
 #include "viewer/renderer/upload_path.h"
@@ -39,15 +40,7 @@ void uploadByBelt(WallRenderer& renderer, FrameBelt& belt, const Image8& picture
   belt.release(batch);
 }
 
-class UploadPathTest : public ::testing::TestWithParam<UploadPath> {
- protected:
-  void TearDown() override {
-    context_.makeCurrent();
-    EXPECT_EQ(log_.take(), std::vector<std::string>{});
-  }
-  devices::HeadlessContext context_;
-  devices::GlDebugLog log_;
-};
+class UploadPathTest : public testing::GlTest<::testing::TestWithParam<UploadPath>> {};
 
 TEST_P(UploadPathTest, ShowsTheSamePicture) {
   const Image8 picture = testing::testDesktop(kDesktop);

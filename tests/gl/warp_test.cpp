@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "devices/display/gl_context.h"
+#include "tests/gl/gl_test.h"
 #include "tests/gl/plans.h"
 #include "tests/support_image/image_near.h"
 #include "viewer/renderer/wall_renderer.h"
@@ -174,18 +174,8 @@ Image8 changed(const Image8& desktop, const std::vector<Box>& boxes, std::uint32
   return result;
 }
 
-class GlFixture {
- protected:
-  void expectNoGlErrors() {
-    context_.makeCurrent();
-    EXPECT_EQ(log_.take(), std::vector<std::string>{});
-  }
-  devices::HeadlessContext context_;
-  devices::GlDebugLog log_;
-};
-
 using MatrixParameter = std::tuple<Shape, Alpha, Damage>;
-class WarpMatrixTest : public ::testing::TestWithParam<MatrixParameter>, protected GlFixture {};
+class WarpMatrixTest : public testing::GlTest<::testing::TestWithParam<MatrixParameter>> {};
 
 TEST_P(WarpMatrixTest, MatchesTheReferenceAndAFullRedraw) {
   const auto [shape, alpha, damage] = GetParam();
@@ -215,7 +205,6 @@ TEST_P(WarpMatrixTest, MatchesTheReferenceAndAFullRedraw) {
     expectLike(incremental.readOutput(i), reference::warp(picture, cases[i].job), name);
     EXPECT_TRUE(testing::imageNear(incremental.readOutput(i), fresh.readOutput(i), 0, name + "-redraw"));
   }
-  expectNoGlErrors();
 }
 
 INSTANTIATE_TEST_SUITE_P(All, WarpMatrixTest,
@@ -225,10 +214,7 @@ INSTANTIATE_TEST_SUITE_P(All, WarpMatrixTest,
                                             ::testing::Values(Damage::kFull, Damage::kMoving, Damage::kOverlapping,
                                                               Damage::kMany, Damage::kZero, Damage::kOutOfBounds)));
 
-class WarpTest : public ::testing::Test, protected GlFixture {
- protected:
-  void TearDown() override { expectNoGlErrors(); }
-};
+using WarpTest = testing::GlTest<>;
 
 TEST_F(WarpTest, OddSizesMatchTheReference) {
   const Size desktop{117, 93};

@@ -10,10 +10,12 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <set>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
+
+#include "calib/store/spelling.h"
 
 namespace {
 
@@ -64,30 +66,13 @@ void printHelp(std::ostream& stream) {
   }
 }
 
-std::size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replace = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = std::exchange(row[j], std::min({replace, row[j] + 1, row[j - 1] + 1}));
-    }
-  }
-  return row[b.size()];
-}
-
 /// The present command nearest to a mistyped one; empty when none is near.
-std::string_view nearestCommand(std::string_view typed) {
-  std::string_view best;
-  std::size_t bestDistance = 3;
+std::string nearestCommand(std::string_view typed) {
+  std::set<std::string> present;
   for (const auto& [name, description] : kCommands) {
-    const std::size_t distance = editDistance(typed.substr(0, 32), name);
-    if (distance >= bestDistance || distance >= name.size() || !isPresent(name)) continue;
-    best = name;
-    bestDistance = distance;
+    if (isPresent(name)) present.emplace(name);
   }
-  return best;
+  return pixelflex::calib::nearestWord(typed, present);
 }
 
 int refuse(const std::string& name) {
