@@ -11,6 +11,7 @@
 #include <chrono>
 
 #include "tests/e2e/programs.h"
+#include "tests/e2e/view_lost.h"
 #include "tests/support/certificates.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/x_servers.h"
@@ -71,6 +72,18 @@ TEST_F(ViewSecurityTest, TakesThePasswordFromAFileOrTheEnvironment) {
   EXPECT_EQ(wrong.status, 1);
   EXPECT_THAT(wrong.text, HasSubstr("refused the password"));
   EXPECT_THAT(wrong.text, Not(HasSubstr("wrong")));
+}
+
+TEST_F(ViewSecurityTest, LeavesNoPasswordInItsEnvironment) {
+  const XvncServer server({.size = {320, 240}, .password = "sesame"});
+  const fs::path log = folder_ / "log";
+  const Process viewer({std::string(PIXELFLEX_BIN_DIR) + "/pixelflex-view", (folder_ / "wall").string(),
+                        server.unixAddress(), "--headless", "--stats"},
+                       {.environment = {"PIXELFLEX_VNC_PASSWORD=sesame"}, .log = log});
+  ASSERT_TRUE(waitUntil([&] { return textOf(log).find("the first picture") != std::string::npos; })) << textOf(log);
+  const std::string environment = textOf("/proc/" + std::to_string(viewer.pid()) + "/environ");
+  EXPECT_THAT(environment, HasSubstr("PATH="));
+  EXPECT_THAT(environment, Not(HasSubstr("sesame")));
 }
 
 TEST_F(ViewSecurityTest, RefusesAPasswordFileThatIsNoSecret) {

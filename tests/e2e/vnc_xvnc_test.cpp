@@ -152,7 +152,7 @@ TEST(X11vnc, ReceivesPointerAndKeys) {
   expectInputArrives(server.x(), server.tcpAddress());
 }
 
-Closed closedWithPassword(const XvncServer& server, std::optional<std::string> password) {
+Closed closedWithPassword(const XvncServer& server, std::optional<Secret> password) {
   SessionOptions options;
   options.server = parseServerAddress(server.unixAddress());
   options.password = std::move(password);

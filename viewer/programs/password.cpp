@@ -39,17 +39,18 @@ void requirePrivate(const FileDescriptor& open, const std::string& file) {
   }
 }
 
-std::string readFile(const std::string& file) {
+Secret readFile(const std::string& file) {
   const FileDescriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (in.get() < 0) {
     fail(file, errno == ENOENT ? "no such password file"
                                : "cannot read the password: " + std::generic_category().message(errno));
   }
   requirePrivate(in, file);
-  std::string text(kMaxFileBytes, '\0');
-  const ssize_t got = ::read(in.get(), text.data(), text.size());
+  std::array<char, kMaxFileBytes> bytes{};
+  const ssize_t got = ::read(in.get(), bytes.data(), bytes.size());
   if (got < 0) fail(file, "cannot read the password: " + std::generic_category().message(errno));
-  text.resize(static_cast<std::size_t>(got));
+  Secret text(std::string_view(bytes.data(), static_cast<std::size_t>(got)));
+  wipe(bytes);
   return text;
 }
 
@@ -95,7 +96,7 @@ sigset_t blockedQuitSignals() {
 }
 
 // A terminal gives a line at a time. Nothing when the program is told to quit, so that the echo comes back on first.
-std::string readLine(int terminal) {
+Secret readLine(int terminal) {
   const sigset_t signals = blockedQuitSignals();
   const FileDescriptor quit(::signalfd(-1, &signals, SFD_CLOEXEC));
   std::array<pollfd, 2> watched{{{terminal, POLLIN, 0}, {quit.get(), POLLIN, 0}}};
@@ -104,44 +105,47 @@ std::string readLine(int terminal) {
   if (watched[1].revents != 0) return {};
   std::array<char, 1024> line{};
   const ssize_t got = ::read(terminal, line.data(), line.size());
-  std::string text(line.data(), got > 0 ? static_cast<std::size_t>(got) : 0);
-  std::ranges::fill(line, '\0');
-  while (!text.empty() && text.back() == '\n') text.pop_back();
+  std::string_view typed(line.data(), got > 0 ? static_cast<std::size_t>(got) : 0);
+  while (typed.ends_with('\n')) typed.remove_suffix(1);
+  Secret text(typed);
+  wipe(line);
   return text;
 }
 
 }  // namespace
 
-std::string readPasswordFile(const std::string& file) {
-  std::string text = readFile(file);
+Secret readPasswordFile(const std::string& file) {
+  const Secret text = readFile(file);
   constexpr std::size_t kHidden = 8;
-  if (text.size() == kHidden && !isText(std::string_view(text).substr(0, text.find('\n')))) {
+  std::string_view line = text.text().substr(0, text.text().find('\n'));
+  if (text.size() == kHidden && !isText(line)) {
     std::array<std::uint8_t, kHidden> hidden{};
-    std::ranges::copy(text, hidden.begin());
+    std::ranges::copy(text.text(), hidden.begin());
     return revealVncPassword(hidden);
   }
-  text.resize(std::min(text.size(), text.find('\n')));
-  while (!text.empty() && text.back() == '\r') text.pop_back();
-  if (text.empty()) fail(file, "holds no password (its first line is taken)");
-  return text;
+  while (line.ends_with('\r')) line.remove_suffix(1);
+  if (line.empty()) fail(file, "holds no password (its first line is taken)");
+  return line;
 }
 
-std::optional<std::string> takePasswordOfEnvironment() {
-  const char* value = std::getenv(kEnvironment);
+std::optional<Secret> takePasswordOfEnvironment() {
+  char* const value = std::getenv(kEnvironment);
   if (value == nullptr) return std::nullopt;
-  std::string password = value;
+  const std::span<char> bytes(value, std::string_view(value).size());
+  Secret password(std::string_view(bytes.data(), bytes.size()));
+  wipe(bytes);  // as long as the process lives, the kernel shows what it was started with
   ::unsetenv(kEnvironment);
   return password;
 }
 
-std::optional<std::string> askForPassword(const std::string& question) {
+std::optional<Secret> askForPassword(const std::string& question) {
   const FileDescriptor terminal(::open("/dev/tty", O_RDWR | O_CLOEXEC | O_NOCTTY));
   // A program in the background would be stopped for asking.
   if (terminal.get() < 0 || ::tcgetpgrp(terminal.get()) != ::getpgrp()) return std::nullopt;
   const SilentTerminal silence(terminal.get());
   if (!silence.silent()) return std::nullopt;
   say(terminal.get(), question);
-  std::string password = readLine(terminal.get());
+  Secret password = readLine(terminal.get());
   say(terminal.get(), "\n");
   return password.empty() ? std::nullopt : std::optional(std::move(password));
 }

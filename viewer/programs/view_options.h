@@ -47,7 +47,7 @@ struct ViewOptions {
   std::size_t clipboardLimit = std::size_t{1} << 20;  // bytes; 0: no clipboard
   bool primary = true;                                // what is marked with the mouse goes both ways, too
   std::optional<std::string> passwordFile;
-  std::optional<std::string> password;  // out of that file, the environment or a prompt
+  std::optional<Secret> password;  // out of that file, the environment or a prompt
   std::string user;
   SecurityOptions security;
   Link link = Link::kAuto;

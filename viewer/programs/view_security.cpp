@@ -28,7 +28,7 @@ bool staysOnThisMachine(const ServerAddress& server) {
 }  // namespace
 
 void completeSecurity(ViewOptions& options) {
-  std::optional<std::string> password = takePasswordOfEnvironment();
+  std::optional<Secret> password = takePasswordOfEnvironment();
   if (options.passwordFile) password = readPasswordFile(*options.passwordFile);
   options.password = std::move(password);
   if (options.user.empty()) options.user = environment("PIXELFLEX_VNC_USER");

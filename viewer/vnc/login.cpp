@@ -25,7 +25,7 @@ std::string serverName(const ServerAddress& server) {
   throw SessionError(CloseKind::kPasswordNeeded, where + " asks for " + what + ": give " + how);
 }
 
-const std::string& passwordFor(const std::string& where, const SessionOptions& options) {
+const Secret& passwordFor(const std::string& where, const SessionOptions& options) {
   if (!options.password || options.password->empty()) {
     refusePassword(where, "a password", "it with --password-file or PIXELFLEX_VNC_PASSWORD");
   }
@@ -33,20 +33,26 @@ const std::string& passwordFor(const std::string& where, const SessionOptions& o
 }
 
 void sendPlainLogin(HandshakeStream& server, const SessionOptions& options) {
-  const std::string& password = passwordFor(server.where(), options);
+  const Secret& password = passwordFor(server.where(), options);
   std::vector<std::uint8_t> message;
+  message.reserve(8 + options.user.size() + password.size());  // one that grows leaves copies behind
   appendNumber(message, static_cast<std::uint32_t>(options.user.size()), 4);
   appendNumber(message, static_cast<std::uint32_t>(password.size()), 4);
   message.insert(message.end(), options.user.begin(), options.user.end());
-  message.insert(message.end(), password.begin(), password.end());
-  server.write(message);
-  std::ranges::fill(message, std::uint8_t{0});
+  message.insert(message.end(), password.text().begin(), password.text().end());
+  try {
+    server.write(message);
+  } catch (...) {
+    wipe(message);
+    throw;
+  }
+  wipe(message);
 }
 
 void answerChallenge(HandshakeStream& server, const SessionOptions& options) {
-  const std::string& password = passwordFor(server.where(), options);
+  const Secret& password = passwordFor(server.where(), options);
   const std::vector<std::uint8_t> challenge = server.read(16);
-  server.write(answerVncChallenge(std::span<const std::uint8_t, 16>(challenge), password));
+  server.write(answerVncChallenge(std::span<const std::uint8_t, 16>(challenge), password.text()));
 }
 
 std::vector<std::uint32_t> readSubTypes(HandshakeStream& server) {

@@ -58,11 +58,7 @@ class Session::Worker {
       connection_.run(stop, [&] { talk(stop); });
     });
   }
-  ~Worker() {
-    stop();
-    thread_.join();  // it reads the password
-    if (options_.password) ::explicit_bzero(options_.password->data(), options_.password->size());
-  }
+  ~Worker() { stop(); }
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 

@@ -11,6 +11,7 @@
 #include "viewer/tiles/frame_belt.h"
 #include "viewer/vnc/desktop_source.h"
 #include "viewer/vnc/link.h"
+#include "viewer/vnc/secret.h"
 #include "viewer/vnc/server_address.h"
 
 namespace pixelflex::viewer {
@@ -27,7 +28,7 @@ enum class Retry {
 struct SessionOptions {
   ServerAddress server;
   /// For servers that ask for one; VNC's own scheme looks at its first eight characters only.
-  std::optional<std::string> password;
+  std::optional<Secret> password;
   /// For servers that ask who it is; never sent without encryption.
   std::string user;
   SecurityOptions security;

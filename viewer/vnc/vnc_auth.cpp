@@ -34,7 +34,7 @@ Block des(Block block, Block key, Direction direction) {
   const int result = direction == Direction::kEncrypt ? ::gnutls_cipher_encrypt(cipher, block.data(), block.size())
                                                       : ::gnutls_cipher_decrypt(cipher, block.data(), block.size());
   ::gnutls_cipher_deinit(cipher);
-  ::gnutls_memset(key.data(), 0, key.size());
+  wipe(key);
   if (result < 0) throw std::runtime_error(std::string("DES: ") + ::gnutls_strerror(result));
   return block;
 }
@@ -42,7 +42,7 @@ Block des(Block block, Block key, Direction direction) {
 }  // namespace
 
 std::array<std::uint8_t, 16> answerVncChallenge(std::span<const std::uint8_t, 16> challenge,
-                                                const std::string& password) {
+                                                std::string_view password) {
   Block key{};
   std::memcpy(key.data(), password.data(), std::min(password.size(), key.size()));
   std::array<std::uint8_t, 16> answer{};
@@ -51,21 +51,19 @@ std::array<std::uint8_t, 16> answerVncChallenge(std::span<const std::uint8_t, 16
     std::copy_n(challenge.begin() + static_cast<std::ptrdiff_t>(half), 8, block.begin());
     std::ranges::copy(des(block, key, Direction::kEncrypt), answer.begin() + static_cast<std::ptrdiff_t>(half));
   }
-  ::gnutls_memset(key.data(), 0, key.size());
+  wipe(key);
   return answer;
 }
 
-std::string revealVncPassword(std::span<const std::uint8_t, 8> hidden) {
+Secret revealVncPassword(std::span<const std::uint8_t, 8> hidden) {
   constexpr Block kKnownToAll{23, 82, 107, 6, 35, 78, 88, 7};
   Block block{};
   std::ranges::copy(hidden, block.begin());
-  const Block plain = des(block, kKnownToAll, Direction::kDecrypt);
-  return {plain.begin(), std::ranges::find(plain, 0)};
-}
-
-void wipe(std::string& secret) {
-  ::gnutls_memset(secret.data(), 0, secret.size());
-  secret.clear();
+  Block plain = des(block, kKnownToAll, Direction::kDecrypt);
+  Secret password(std::string_view(reinterpret_cast<const char*>(plain.data()),
+                                   static_cast<std::size_t>(std::ranges::find(plain, 0) - plain.begin())));
+  wipe(plain);
+  return password;
 }
 
 }  // namespace pixelflex::viewer
