@@ -50,12 +50,14 @@ constexpr std::array kRemarks = {
            "# `mirror: {driver: ptu, at: \"tcp://10.0.0.9:2101\"}`, a pan-tilt unit.\n"},
     Remark{"    flat:",
            "    # The screen's top-left pixel shows this desktop pixel, one to one; no camera is needed.\n"},
-    Remark{"blend:",
-           "\n# The exponent n of the blending weights: larger values favour the denser projector more.\n"
-           "# `priority_feather: 60` lets much denser projectors (an inset) win, with a ramp of 60 of their pixels.\n"
-           "# `stack: left-right` gives pairs that light the same part of the wall an eye each; else they share.\n"
-           "# `uniformity` matches the projectors' light and colour, from 0 (brightest) to 1 (flattest), or off;\n"
-           "# `black: even` lifts black to where the most projectors overlap, at a cost in contrast; else native.\n"},
+    Remark{
+        "blend:",
+        "\n# The exponent n of the blending weights: larger values favour the denser projector more.\n"
+        "# `priority_feather: 60` lets much denser projectors (an inset) win, with a ramp of 60 of their pixels.\n"
+        "# `stack: left-right` gives pairs that light the same part of the wall an eye each; else they share.\n"
+        "# `uniformity` matches the projectors' light and colour, from 0 (brightest) to 1 (flattest), or off;\n"
+        "# `black: even` lifts black to where the most projectors overlap, so that dark pictures show no overlaps, at\n"
+        "# a cost in contrast that `calibrate` tells; `native` leaves it.\n"},
     Remark{"display:",
            "# The display area on the wall: `aspect` is any or W:H, `margin` the desktop pixels kept clear of the "
            "edge.\n"},

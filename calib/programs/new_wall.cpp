@@ -130,6 +130,7 @@ std::vector<NewFile> filesOfRig(const Rig& rig, const std::string& rigText) {
   const std::string rigFile = "rig.yaml";
   Wall wall = wallOfRig(rig, rigFile);
   wall.blend.uniformity = kUsualUniformity;
+  wall.blend.evenBlack = true;
   std::vector<NewFile> files = {{rigFile, rigText}};
   for (std::size_t i = 0; i < rig.projectors.size(); ++i) {
     const auto& gamma = wall.projectors.at(i).gamma;
@@ -143,6 +144,7 @@ std::vector<NewFile> filesOfRig(const Rig& rig, const std::string& rigText) {
 std::vector<NewFile> filesOfMonitors(const std::vector<FoundMonitor>& monitors) {
   Wall wall;
   wall.blend.uniformity = kUsualUniformity;
+  wall.blend.evenBlack = true;
   wall.camera.checkerboard = Checkerboard{};
   for (const auto& [id, corner] : {std::pair(0, glm::dvec2(0, 0)), std::pair(1, glm::dvec2(3000, 0)),
                                    std::pair(2, glm::dvec2(3000, 1500)), std::pair(3, glm::dvec2(0, 1500))}) {

@@ -164,6 +164,7 @@ class ByHandTest : public CalibrateResponseTest {
     useCameraForGamma();
     calib::Wall changed = calib::loadWall(wall());
     changed.blend.uniformity.reset();  // only the response is photographed
+    changed.blend.evenBlack = false;
     calib::saveWall(wall(), changed);
     room_ = std::make_unique<calib::SimulatedWall>(rig_);
   }

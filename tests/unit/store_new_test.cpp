@@ -105,7 +105,8 @@ TEST(StoreNew, ARigBecomesAWallInGoodOrder) {
   EXPECT_THAT(calib::checkWall(folder.path() / "wall"), IsEmpty());
   EXPECT_EQ(calib::loadRig(folder.path() / "wall" / "rig.yaml"), rig);
   calib::Wall expected = calib::wallOfRig(rig, "rig.yaml");
-  expected.blend.uniformity = 0.5;  // new walls have their projectors' light matched
+  expected.blend.uniformity = 0.5;  // new walls have their projectors' light matched, black as well
+  expected.blend.evenBlack = true;
   EXPECT_EQ(calib::loadWall(folder.path() / "wall"), expected);
 }
 
