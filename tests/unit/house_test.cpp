@@ -134,6 +134,17 @@ TEST(House, ThirdPartyHeadersStayInSourceFiles) {
               IsEmpty());
 }
 
+// Which shows that the header needs nothing before it.
+TEST(House, EverySourceIncludesItsOwnHeaderFirst) {
+  for (const auto& source : sources()) {
+    if (!source.ends_with(".cpp")) continue;
+    const std::string header = fs::path(source).replace_extension(".h").string();
+    if (!fs::exists(kRoot / header)) continue;
+    const auto includes = includesOf(source);
+    EXPECT_TRUE(!includes.empty() && includes.front().file == header) << source;
+  }
+}
+
 TEST(House, HeadersAreGuarded) {
   for (const auto& source : sources()) {
     if (!source.ends_with(".h")) continue;
