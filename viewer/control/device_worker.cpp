@@ -141,6 +141,7 @@ void DeviceWorker::run(const DeviceTask& task) {
     DeviceOutcome outcome;
     runDeviceSteps(*device_, task.steps, progress, outcome);
     succeeded();
+    readBack(task.steps);
   } catch (const std::exception& failure) {
     error = failure.what();
     // What is stopped fails, but nothing is wrong with the device.
@@ -150,6 +151,24 @@ void DeviceWorker::run(const DeviceTask& task) {
   }
   show("");
   task.done(error);
+}
+
+/// So that nobody who waited for a command's end still sees what was before it.
+void DeviceWorker::readBack(const std::vector<DeviceStep>& steps) {
+  for (const auto& step : steps) {
+    if (step.kind != DeviceStep::Kind::kWrite && step.kind != DeviceStep::Kind::kNudge) continue;
+    std::string value;
+    try {
+      value = devices::textOf(device_->read(step.name));
+    } catch (const std::exception&) {
+      continue;  // it cannot be read, or not now
+    }
+    board_.changeDevice(index_, [&](DeviceState& state) {
+      for (auto& setting : state.settings) {
+        if (setting.info.name == step.name) setting.value = value;
+      }
+    });
+  }
 }
 
 void DeviceWorker::poll(const std::stop_token& stop) {

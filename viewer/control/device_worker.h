@@ -55,6 +55,7 @@ class DeviceWorker {
   void work(const std::stop_token& stop);
   void haltWhenAsked(const std::stop_token& stop);
   void run(const DeviceTask& task);
+  void readBack(const std::vector<DeviceStep>& steps);
   void poll(const std::stop_token& stop);
   void readAll(const std::stop_token& stop);
   [[nodiscard]] bool hasTasks();
