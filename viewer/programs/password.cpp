@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/signalfd.h>
-#include <sys/stat.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -13,10 +12,9 @@
 #include <csignal>
 #include <cstdlib>
 #include <span>
-#include <stdexcept>
 #include <string_view>
-#include <system_error>
 
+#include "viewer/programs/private_file.h"
 #include "viewer/vnc/vnc_auth.h"
 #include "viewer/vnc/waiting.h"
 
@@ -24,35 +22,7 @@ namespace pixelflex::viewer {
 namespace {
 
 constexpr const char* kEnvironment = "PIXELFLEX_VNC_PASSWORD";
-constexpr std::size_t kMaxFileBytes = 4096;
-
-[[noreturn]] void fail(const std::string& file, const std::string& what) {
-  throw std::runtime_error(file + ": " + what);
-}
-
-// Checks the file that was opened, not another one of its name.
-void requirePrivate(const FileDescriptor& open, const std::string& file) {
-  struct stat info {};
-  if (::fstat(open.get(), &info) != 0 || !S_ISREG(info.st_mode)) fail(file, "is not a password file");
-  if ((info.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
-    fail(file, "others can read this password file; run chmod 600 " + file);
-  }
-}
-
-Secret readFile(const std::string& file) {
-  const FileDescriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (in.get() < 0) {
-    fail(file, errno == ENOENT ? "no such password file"
-                               : "cannot read the password: " + std::generic_category().message(errno));
-  }
-  requirePrivate(in, file);
-  std::array<char, kMaxFileBytes> bytes{};
-  const ssize_t got = ::read(in.get(), bytes.data(), bytes.size());
-  if (got < 0) fail(file, "cannot read the password: " + std::generic_category().message(errno));
-  Secret text(std::string_view(bytes.data(), static_cast<std::size_t>(got)));
-  wipe(bytes);
-  return text;
-}
+constexpr const char* kWhat = "password";
 
 bool isText(std::string_view bytes) {
   return std::ranges::none_of(bytes, [](char c) {
@@ -115,17 +85,14 @@ Secret readLine(int terminal) {
 }  // namespace
 
 Secret readPasswordFile(const std::string& file) {
-  const Secret text = readFile(file);
+  const Secret text = readPrivateFile(file, kWhat);
   constexpr std::size_t kHidden = 8;
-  std::string_view line = text.text().substr(0, text.text().find('\n'));
-  if (text.size() == kHidden && !isText(line)) {
+  if (text.size() == kHidden && !isText(text.text().substr(0, text.text().find('\n')))) {
     std::array<std::uint8_t, kHidden> hidden{};
     std::ranges::copy(text.text(), hidden.begin());
     return revealVncPassword(hidden);
   }
-  while (line.ends_with('\r')) line.remove_suffix(1);
-  if (line.empty()) fail(file, "holds no password (its first line is taken)");
-  return line;
+  return readPrivateLine(file, kWhat);
 }
 
 std::optional<Secret> takePasswordOfEnvironment() {

@@ -38,6 +38,7 @@ constexpr std::array kCommands = {
     Command{"panel", "opens the control panel"},
     Command{"preset", "saves and restores device settings with their calibration"},
     Command{"device", "lists, reads or sets the settings of devices"},
+    Command{"serve", "lets programs, telephones and room controllers control the wall"},
 };
 
 std::filesystem::path ownFolder() {

@@ -1,0 +1,4 @@
+# Remote controls of a wall, against simulated devices.
+pixelflex_test(remote_http_test LABEL unit
+  SOURCES unit/remote_http_test.cpp unit/remote_room.h e2e/device_room.h support/tcp_talk.cpp support/tcp_talk.h
+  LINK pixelflex_remote pixelflex_device_support pixelflex_device_host nlohmann_json::nlohmann_json)
