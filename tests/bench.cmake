@@ -33,7 +33,7 @@ set(viewer_programs ${PROJECT_SOURCE_DIR}/viewer/programs)
 add_executable(latency_bench bench/latency_bench.cpp bench/marks.cpp bench/marks.h bench/watched_screen.cpp
   bench/watched_screen.h ${viewer_programs}/wall_view.cpp ${viewer_programs}/wall_reloader.cpp
   ${viewer_programs}/lost_picture.cpp ${viewer_programs}/desk_texts.cpp ${viewer_programs}/view_security.cpp
-  ${viewer_programs}/password.cpp)
+  ${viewer_programs}/password.cpp ${viewer_programs}/private_file.cpp)
 target_link_libraries(latency_bench PRIVATE pixelflex_options pixelflex_test_support pixelflex_plan pixelflex_vnc
   pixelflex_x11source pixelflex_renderer pixelflex_store CLI11::CLI11 fmt::fmt X11::X11 PkgConfig::EPOXY)
 target_compile_definitions(latency_bench PRIVATE PIXELFLEX_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
