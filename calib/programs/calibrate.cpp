@@ -13,8 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "calib/capture/folder_photographs.h"
-#include "calib/capture/live_photographs.h"
 #include "calib/geometry/nudge_map.h"
 #include "calib/patterns/colour_fields.h"
 #include "calib/patterns/response_pattern.h"
@@ -24,8 +22,8 @@
 #include "calib/programs/calibrate_table.h"
 #include "calib/programs/console_progress.h"
 #include "calib/programs/nudge_argument.h"
+#include "calib/programs/photograph_source.h"
 #include "calib/report/report.h"
-#include "calib/simulate/simulated_wall.h"
 #include "calib/store/store.h"
 #include "calib/store/yaml_reader.h"
 #include "devices/image/atomic_file.h"
@@ -49,43 +47,6 @@ struct Arguments {
   bool all = false;
   bool progress = false;
 };
-
-/// Where the photographs come from, with the devices that must outlive them.
-struct Source {
-  std::unique_ptr<SimulatedWall> room;
-  std::unique_ptr<Photographs> photographs;
-  bool live = false;
-};
-
-Source simulatedSource(const fs::path& folder, const Wall& wall, const Arguments& arguments) {
-  if (!wall.rig) throw ProcedureError((folder / "wall.yaml").string() + ": camera: sim needs a rig: FILE as well");
-  Source source;
-  source.live = true;
-  source.room = std::make_unique<SimulatedWall>(loadRig(folder / *wall.rig));
-  std::vector<devices::Projector*> projectors;
-  for (std::size_t i = 0; i < source.room->projectorCount(); ++i) projectors.push_back(&source.room->projector(i));
-  source.photographs = std::make_unique<LivePhotographs>(
-      source.room->camera(), projectors, source.room->person(), arguments.check ? fs::path() : folder / "captures",
-      formatRig(source.room->rig()), source.room->rig().checkerboardPoses, source.room->placeCount());
-  return source;
-}
-
-Source openSource(const fs::path& folder, const Wall& wall, const Arguments& arguments) {
-  const fs::path captures = folder / "captures";
-  if (!arguments.photos.empty()) {
-    const std::vector<fs::path> folders(arguments.photos.begin(), arguments.photos.end());
-    return {nullptr, std::make_unique<FolderPhotographs>(folders, captures), false};
-  }
-  if (wall.camera.source == "sim") return simulatedSource(folder, wall, arguments);
-  if (wall.camera.source == "photos") {
-    if (fs::is_directory(captures))
-      return {nullptr, std::make_unique<FolderPhotographs>(std::vector{captures}, captures), false};
-    throw ProcedureError(folder.string() +
-                         ": camera: source is photos: give --photos DIR (--patterns DIR tells what to photograph)");
-  }
-  throw ProcedureError((folder / "wall.yaml").string() + ": camera: source " + wall.camera.source +
-                       " cannot be driven by this version; photograph by hand and use --photos DIR");
-}
 
 std::optional<Method> methodOf(const Arguments& arguments) {
   if (arguments.method.empty()) return std::nullopt;
@@ -141,9 +102,9 @@ void calibrateFlat(const fs::path& folder, const Wall& wall) {
 }
 
 void check(const fs::path& folder, const Wall& wall, const Arguments& arguments) {
-  const Source source = openSource(folder, wall, arguments);
+  const auto source = openSource(folder, wall, arguments.photos, false);
   ConsoleProgress progress(arguments.progress);
-  const auto drifts = checkDrift(loadCalibration(folder), *source.photographs, arguments.only, progress);
+  const auto drifts = checkDrift(loadCalibration(folder), source->photographs(), arguments.only, progress);
   fmt::print("\n{}", formatDrifts(drifts));
 }
 
@@ -171,17 +132,17 @@ void calibrate(const Arguments& arguments) {
   requireProjectors(wall, "--only", arguments.only);
   if (arguments.check) return check(folder, wall, arguments);
   changeNudges(folder, wall, arguments);
-  Source source;
-  if (needsPhotographs(wall, arguments)) source = openSource(folder, wall, arguments);
+  std::unique_ptr<PhotographSource> source;
+  if (needsPhotographs(wall, arguments)) source = openSource(folder, wall, arguments.photos, true);
   ConsoleProgress progress(arguments.progress);
   Procedure procedure(folder, wall, hasCalibration(folder) ? loadCalibration(folder) : Calibration{},
-                      source.photographs.get(), progress);
+                      source ? &source->photographs() : nullptr, progress);
   const auto ran = procedure.run({.steps = arguments.steps,
                                   .force = arguments.all,
                                   .skip = {arguments.skip.begin(), arguments.skip.end()},
                                   .only = {arguments.only.begin(), arguments.only.end()},
                                   .method = methodOf(arguments),
-                                  .goOnWithoutFailed = source.live});
+                                  .goOnWithoutFailed = source && source->isLive()});
   if (ran.empty()) fmt::print("nothing has changed since the last calibration (--all measures again)\n");
   if (!ran.empty()) procedure.save();
   finish(folder, wall, procedure.calibration());

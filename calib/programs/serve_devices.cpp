@@ -1,10 +1,13 @@
 #include "calib/programs/serve_devices.h"
 
 #include <csignal>
+#include <ctime>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "calib/programs/serve_room.h"
 #include "calib/store/store.h"
 #include "calib/store/wall_devices.h"
 #include "devices/serve/device_host.h"
@@ -31,9 +34,9 @@ devices::LineAddress placeOf(const WallDevice& device) {
   auto address = devices::parseLineAddress(device.line.at);
   const bool ours = address.host == "127.0.0.1" || address.host == "::1" || address.host == "localhost";
   if (address.kind == LineKind::kSerial || (address.kind == LineKind::kTcp && ours)) return address;
-  throw std::runtime_error(
-      device.name + ": " + device.line.at +
-      " is no place of this machine: for a simulated one write tcp://127.0.0.1:PORT or serial:FILE");
+  throw std::runtime_error(device.name + ": " + device.line.at +
+                           " is no place of this machine: for a simulated one write tcp://127.0.0.1:PORT or "
+                           "serial:FILE, or a simulated wall (rig: FILE) the camera source aravis:first");
 }
 
 void orderFault(devices::DeviceHost& host, const std::string& text) {
@@ -56,13 +59,21 @@ void serveDevices(const ServeRequest& request, const std::function<void(const st
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   devices::DeviceHost host;
   int served = 0;
-  for (const auto& device : devicesOf(loadWall(request.wall), request.wall)) {
+  const Wall wall = loadWall(request.wall);
+  const auto all = devicesOf(wall, request.wall);
+  for (const auto& device : all) {
     if (device.line.at.starts_with("sim:")) {
       say(device.name + "  " + device.line.driver + "  " + device.line.at + " (within each program)");
       continue;
     }
     host.add(device.name, simulatorOf(device, request.faster), placeOf(device));
     say(device.name + "  " + device.line.driver + "  " + host.address(device.name));
+    ++served;
+  }
+  std::optional<ServedRoom> room;
+  if (hasServedCamera(wall)) {
+    room.emplace(request.wall, wall, host, all, say);
+    say("camera  gige  " + room->camera());
     ++served;
   }
   if (served == 0) {
@@ -73,8 +84,10 @@ void serveDevices(const ServeRequest& request, const std::function<void(const st
   }
   for (const auto& fault : request.faults) orderFault(host, fault);
   say("serving " + std::to_string(served) + (served == 1 ? " device" : " devices") + "; Ctrl+C ends it");
-  int number = 0;
-  (void)sigwait(&signals, &number);
+  const timespec betweenLooks{.tv_sec = 0, .tv_nsec = 200'000'000};
+  while (sigtimedwait(&signals, nullptr, &betweenLooks) < 0) {
+    if (room) room->refresh();
+  }
 }
 
 }  // namespace pixelflex::calib

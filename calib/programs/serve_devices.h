@@ -13,9 +13,9 @@ struct ServeRequest {
   double faster = 1;                // mirrors turn so much faster than real ones
 };
 
-/// Opens a line to a simulated device for every control and mirror of the wall, where wall.yaml says that it is; tells
-/// each by `say`; returns when the process is asked to end (SIGINT, SIGTERM). Call it before any thread is started.
-/// Throws std::runtime_error.
+/// Opens a line to a simulated device for every control and mirror of the wall, where wall.yaml says that it is, and
+/// the camera of its room where that is `aravis:` (ServedRoom); tells each by `say`, which any thread may call; returns
+/// when the process is asked to end (SIGINT, SIGTERM). Call it before any thread is started. Throws std::runtime_error.
 void serveDevices(const ServeRequest& request, const std::function<void(const std::string& line)>& say);
 
 }  // namespace pixelflex::calib

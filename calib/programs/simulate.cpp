@@ -123,7 +123,10 @@ std::vector<Image8> readFrames(const SimulatedWall& wall, const fs::path& folder
   return frames;
 }
 
-pixelflex::calib::Rig rigOf(const fs::path& folder) {
+/// Of a room that is served (ServedRoom): as its devices are set, beside the frames.
+pixelflex::calib::Rig rigOf(const fs::path& folder, const fs::path& frames) {
+  if (const fs::path now = frames / "rig.yaml"; !frames.empty() && fs::exists(now))
+    return pixelflex::calib::loadRig(now);
   const auto wall = pixelflex::calib::loadWall(folder);
   if (!wall.rig) {
     throw std::runtime_error(
@@ -135,7 +138,7 @@ pixelflex::calib::Rig rigOf(const fs::path& folder) {
 }
 
 void simulate(const Request& request) {
-  const SimulatedWall wall(rigOf(request.wall));
+  const SimulatedWall wall(rigOf(request.wall, request.frames));
   const auto display = displayOf(request.wall);
   const auto frames =
       request.uncalibrated.empty()
@@ -150,12 +153,15 @@ void simulate(const Request& request) {
 void defineOptions(CLI::App& app, Request& request) {
   app.add_option("WALL", request.wall, "The wall's folder; its wall.yaml names a rig")->required();
   auto* from = app.add_option_group("what is simulated");
-  auto* frames = from->add_option("--frames", request.frames, "Folder of frames, NAME.png for each projector");
+  auto* frames =
+      from->add_option("--frames", request.frames,
+                       "Folder of frames, NAME.png for each projector; WALL/room is what a served room shows");
   auto* desktop =
       from->add_option("--uncalibrated", request.uncalibrated, "Picture of the desktop, shown as if never calibrated");
   auto* serves =
       from->add_flag("--serve", request.serves,
-                     "Opens simulated devices where wall.yaml says that controls and mirrors are, until Ctrl+C");
+                     "Opens simulated devices where wall.yaml says that controls and mirrors are, and a GigE Vision "
+                     "camera where its source is aravis:, all in one room, until Ctrl+C");
   from->require_option(1);
   auto* audience = app.add_option("--audience", request.audience, "The PNG to write");
   frames->needs(audience);

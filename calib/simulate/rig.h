@@ -48,9 +48,10 @@ struct SimulatedProjectorSpec {
   Pose pose;
   Optics optics;
   Response response;
-  double lumens = 1500;     // sets radiance together with the lit area
-  double vignetting = 0.3;  // 0..1: light lost in the frame's corners
-  double defocus = 0.5;     // sigma of the blur, projector pixels
+  double lumens = 1500;         // sets radiance together with the lit area
+  double vignetting = 0.3;      // 0..1: light lost in the frame's corners
+  double defocus = 0.5;         // sigma of the blur, projector pixels
+  double mirrorDistance = 200;  // mm from the place that the light seems to come from to the middle of the mirror
   bool operator==(const SimulatedProjectorSpec&) const = default;
 };
 

@@ -110,9 +110,10 @@ SimulatedProjectorSpec readProjector(const Node& node, const Rig& rig, std::size
   spec.optics = readOptics(node, spec.resolution);
   spec.pose = readPose(node, rig, spec.optics, spec.resolution, 1);
   if (const Node response = node.optional("response"); response.defined()) spec.response = readResponse(response);
-  read(node, "lumens", 1, 1e6, spec.lumens);
+  read(node, "lumens", 0, 1e6, spec.lumens);
   read(node, "vignetting", 0, 1, spec.vignetting);
   read(node, "defocus", 0, 20, spec.defocus);
+  read(node, "mirror_distance", 1, 1e5, spec.mirrorDistance);
   node.refuseUnknownKeys();
   return spec;
 }

@@ -64,7 +64,10 @@ std::string formatProjector(const SimulatedProjectorSpec& spec) {
          fmt::format("    response: {{gamma: {}, gain: {}, toe: {}, black: {}}}\n", yamlList(response.gamma),
                      yamlList(response.gain), yamlNumber(response.toe), yamlNumber(response.black)) +
          fmt::format("    lumens: {}\n    vignetting: {}\n    defocus: {}\n", yamlNumber(spec.lumens),
-                     yamlNumber(spec.vignetting), yamlNumber(spec.defocus));
+                     yamlNumber(spec.vignetting), yamlNumber(spec.defocus)) +
+         (spec.mirrorDistance == SimulatedProjectorSpec{}.mirrorDistance
+              ? ""
+              : fmt::format("    mirror_distance: {}\n", yamlNumber(spec.mirrorDistance)));
 }
 
 std::string formatStage(const Rig& rig) {

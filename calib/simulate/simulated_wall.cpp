@@ -146,8 +146,8 @@ class StudioPerson final : public devices::Operator {
 }  // namespace
 
 struct SimulatedWall::Impl {
-  explicit Impl(Rig rig)
-      : stage(std::move(rig)), studio(stage), camera(studio, stage.rig().camera.size), person(studio) {
+  Impl(Rig rig, const Rig& reference)
+      : stage(std::move(rig), reference), studio(stage), camera(studio, stage.rig().camera.size), person(studio) {
     for (const Pose& place : placesOf(stage.rig())) cameras.emplace_back(place, stage.rig().camera.optics);
     for (std::size_t i = 0; i < stage.lights().size(); ++i) {
       projectors.push_back(std::make_unique<StudioProjector>(studio, i, stage.rig().projectors[i]));
@@ -163,7 +163,8 @@ struct SimulatedWall::Impl {
   std::unique_ptr<AudienceLight> audience;  // of the last call
 };
 
-SimulatedWall::SimulatedWall(Rig rig) : impl_(std::make_unique<Impl>(std::move(rig))) {}
+SimulatedWall::SimulatedWall(Rig rig, const Rig& reference)
+    : impl_(std::make_unique<Impl>(std::move(rig), reference)) {}
 SimulatedWall::~SimulatedWall() = default;
 
 const Rig& SimulatedWall::rig() const {

@@ -36,7 +36,10 @@ class Screen {
 /// estimators. Deterministic for a rig's seed and the sequence of photographs. Thread-bound.
 class SimulatedWall {
  public:
-  explicit SimulatedWall(Rig rig);
+  explicit SimulatedWall(const Rig& rig) : SimulatedWall(rig, rig) {}
+  /// `reference`: the same room with its projectors set otherwise. Radiance, ambient light and the camera's exposure
+  /// are counted as there, so that photographs of both compare.
+  SimulatedWall(Rig rig, const Rig& reference);
   ~SimulatedWall();
   SimulatedWall(const SimulatedWall&) = delete;
   SimulatedWall& operator=(const SimulatedWall&) = delete;

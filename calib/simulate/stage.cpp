@@ -17,12 +17,17 @@ double largestGain(const Response& response) {
   return *std::ranges::max_element(response.gain);
 }
 
-Stage::Stage(Rig rig) : rig_(std::move(rig)), screen_(makeScreen(rig_)) {
+Stage::Stage(Rig rig, const Rig& reference) : rig_(std::move(rig)), screen_(makeScreen(rig_)) {
+  for (const auto& spec : rig_.projectors) lights_.emplace_back(spec, *screen_);
+  measureLight(reference);
+}
+
+void Stage::measureLight(const Rig& reference) {
   double brightest = 0;
   double brightestChannel = 0;
   double sum = 0;
-  for (const auto& spec : rig_.projectors) {
-    const auto level = lights_.emplace_back(spec, *screen_).level();
+  for (const auto& spec : reference.projectors) {
+    const auto level = ProjectorLight(spec, *screen_).level();
     brightest = std::max(brightest, level.maximum);
     brightestChannel = std::max(brightestChannel, level.maximum * largestGain(spec.response));
     sum += level.mean;

@@ -15,7 +15,9 @@ namespace pixelflex::calib {
 /// The rig set up: its screen, its projectors' light, and the unit in which radiance is counted.
 class Stage {
  public:
-  explicit Stage(Rig rig);
+  /// `reference`: the rig in whose units radiance is counted, the same room with its projectors set otherwise.
+  Stage(Rig rig, const Rig& reference);
+  explicit Stage(const Rig& rig) : Stage(rig, rig) {}
   ~Stage() = default;
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
@@ -31,6 +33,8 @@ class Stage {
   [[nodiscard]] double brightestWhite() const { return brightestWhite_; }
 
  private:
+  void measureLight(const Rig& reference);
+
   Rig rig_;
   std::unique_ptr<const Screen> screen_;
   std::vector<ProjectorLight> lights_;

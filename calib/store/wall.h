@@ -42,6 +42,7 @@ enum class Transfer { kSrgb, kLinear };
 struct CameraSource {
   std::string source = "photos";  // photos, sim, none, v4l2:DEVICE, aravis:NAME, gphoto2:NAME
   std::optional<Checkerboard> checkerboard;
+  std::optional<double> latency;     // seconds that pictures take from here to the wall; none: as usual
   std::optional<Transfer> transfer;  // how photographs encode light; none: as was measured, else linear
   bool operator==(const CameraSource&) const = default;
 };

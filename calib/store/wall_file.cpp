@@ -83,6 +83,7 @@ CameraSource readCamera(const Node& node) {
                    quotedForMessage(camera.source));
   }
   if (const Node board = node.optional("checkerboard"); board.defined()) camera.checkerboard = readCheckerboard(board);
+  if (const Node latency = node.optional("latency"); latency.defined()) camera.latency = latency.number(0, 10);
   if (const Node transfer = node.optional("transfer"); transfer.defined()) camera.transfer = readTransfer(transfer);
   node.refuseUnknownKeys();
   return camera;

@@ -34,6 +34,7 @@ std::string transferText(Transfer transfer) {
 
 std::string cameraText(const CameraSource& camera) {
   std::string text = fmt::format("camera:\n  source: {}\n", yamlText(camera.source));
+  if (camera.latency) text += fmt::format("  latency: {}\n", yamlNumber(*camera.latency));
   if (camera.transfer) text += fmt::format("  transfer: {}\n", transferText(*camera.transfer));
   if (!camera.checkerboard) return text;
   const auto& board = *camera.checkerboard;

@@ -133,7 +133,9 @@ void GigeCamera::Impl::writeOne(std::uint32_t address, std::uint32_t value) {
 
 Bytes GigeCamera::Impl::writeRegisters(const GigeRequest& request) {
   const std::size_t count = request.numbers() / 2;
+  const bool acquired = registers.acquires();
   for (std::size_t i = 0; i < count; ++i) writeOne(request.number(2 * i), request.number(2 * i + 1));
+  if (acquired && !registers.acquires()) sender.abandon();
   sender.wake();
   Bytes written;
   appendNumber(written, static_cast<std::uint32_t>(count));
@@ -142,6 +144,7 @@ Bytes GigeCamera::Impl::writeRegisters(const GigeRequest& request) {
 
 Bytes GigeCamera::Impl::writeMemory(const GigeRequest& request) {
   constexpr std::size_t kAddress = 4;
+  if (request.numbers() == 2 && request.data.size() == 8) return writeRegisters(request);
   if (request.data.size() <= kAddress ||
       !registers.writeBlock(request.number(0), Bytes(request.data.begin() + kAddress, request.data.end()))) {
     return gigeAnswer(request, GigeStatus::kInvalidAddress, {});
@@ -168,7 +171,7 @@ void GigeCamera::Impl::forgetLostController() {
   controller.reset();
   registers.write(GigeRegisters::kPrivilege, 0);
   registers.stopAcquisition();
-  sender.wake();
+  sender.abandon();
 }
 
 GigeCamera::GigeCamera(const Options& options, Photograph photograph, Complain complain)

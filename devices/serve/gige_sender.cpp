@@ -61,6 +61,12 @@ void GigeSender::wake() {
   changed_.notify_all();
 }
 
+void GigeSender::abandon() {
+  (void)registers_.takeTrigger();
+  ++ended_;
+  wake();
+}
+
 sockaddr_in GigeSender::destination() const {
   sockaddr_in place{};
   place.sin_family = AF_INET;
@@ -120,8 +126,10 @@ void GigeSender::run(const std::stop_token& stop) {
 
 void GigeSender::takeFrame() {
   try {
+    const std::uint64_t ended = ended_;
     const auto timestamp = std::chrono::steady_clock::now().time_since_epoch();
     auto frame = std::make_shared<GigeFrame>(registers_.frameOf(photograph_(registers_.exposure())));
+    if (ended_ != ended) return;
     frame->timestamp =
         static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(timestamp).count());
     block_ = static_cast<std::uint16_t>(block_ % 65535 + 1);

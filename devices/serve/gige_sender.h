@@ -2,6 +2,7 @@
 
 #include <netinet/in.h>
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -41,6 +42,8 @@ class GigeSender {
   // From any thread.
   /// The registers have changed: perhaps there is something to do.
   void wake();
+  /// Acquisition has ended: what is being taken or was triggered is not sent any more.
+  void abandon();
   /// Packets of a frame again, while it is remembered.
   void sendAgain(std::uint16_t block, std::uint32_t first, std::uint32_t last) const;
   /// One packet of the size that is set, for clients that try sizes.
@@ -60,6 +63,7 @@ class GigeSender {
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
   std::uint64_t changes_ = 0;
+  std::atomic<std::uint64_t> ended_ = 0;  // how often acquisition has
   std::deque<std::shared_ptr<const GigeFrame>> sent_;  // the newest last
   std::uint16_t block_ = 0;
   std::jthread thread_;
