@@ -15,7 +15,7 @@ pixelflex_test(patterns_dense_test LABEL unit
   SOURCES unit/patterns_dense_test.cpp
   LINK pixelflex_patterns pixelflex_simulate)
 pixelflex_test(capture_test LABEL unit
-  SOURCES unit/capture_folder_test.cpp unit/capture_live_test.cpp support/temporary_folder.cpp
+  SOURCES unit/capture_folder_test.cpp unit/capture_live_test.cpp unit/capture_meter_test.cpp support/temporary_folder.cpp
   LINK pixelflex_capture)
 pixelflex_test(estimate_test LABEL unit SOURCES unit/estimate_test.cpp unit/estimate_fit_test.cpp unit/estimate_joint_test.cpp unit/estimate_vignetting_test.cpp unit/estimate_smooth_field_test.cpp LINK pixelflex_estimate pixelflex_patterns)
 pixelflex_test(estimate_light_test LABEL unit SOURCES unit/estimate_light_test.cpp unit/estimate_projector_light_test.cpp unit/test_camera.h LINK pixelflex_estimate pixelflex_patterns)

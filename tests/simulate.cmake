@@ -14,3 +14,6 @@ pixelflex_test(simulate_program_test LABEL unit
   SOURCES unit/simulate_program_test.cpp support/process.cpp support/temporary_folder.cpp
   LINK pixelflex_simulate pixelflex_store pixelflex_image)
 add_dependencies(simulate_program_test pixelflex-simulate)
+pixelflex_test(simulate_room_test LABEL unit
+  SOURCES unit/simulate_room_test.cpp support/temporary_folder.cpp
+  LINK pixelflex_simulate)

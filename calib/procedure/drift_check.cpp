@@ -14,9 +14,8 @@ constexpr double kNoticeable = 0.25;
 std::string verdictOn(const std::string& name, const Drift& drift) {
   const std::string cure = "; run pixelflex calibrate WALL --only " + name;
   if (drift.expected == 0) return "not in the camera's picture";
-  if (drift.found < drift.expected / 10) return "nothing seen of it: is it on?";
-  if (drift.found < drift.expected * 9 / 10)
-    return "moved by more than half a blob's distance, or partly hidden" + cure;
+  if (isUnseen(drift)) return "nothing seen of it: is it on?";
+  if (isFarOff(drift)) return "moved by more than half a blob's distance, or partly hidden" + cure;
   return drift.rms <= kNoticeable ? "in place" : "has moved" + cure;
 }
 
@@ -40,6 +39,14 @@ Drift driftOf(const ProjectorCalibration& projector, const Calibration& calibrat
 }
 
 }  // namespace
+
+bool isUnseen(const Drift& drift) {
+  return drift.expected == 0 || drift.found < drift.expected / 10;
+}
+
+bool isFarOff(const Drift& drift) {
+  return drift.found < drift.expected * 9 / 10;
+}
 
 std::vector<ProjectorDrift> checkDrift(const Calibration& calibration, Photographs& photographs,
                                        const std::vector<std::string>& only, Progress& progress) {

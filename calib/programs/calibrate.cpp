@@ -1,6 +1,7 @@
 // pixelflex calibrate WALL [STEP…]: measures the wall with a camera, or from photographs.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -44,6 +45,7 @@ struct Arguments {
   std::vector<std::string> nudges;
   std::vector<std::string> clearNudges;
   bool check = false;
+  std::optional<double> recalibrate;  // pixels
   bool all = false;
   bool progress = false;
 };
@@ -101,11 +103,23 @@ void calibrateFlat(const fs::path& folder, const Wall& wall) {
   finish(folder, wall, calibration);
 }
 
-void check(const fs::path& folder, const Wall& wall, const Arguments& arguments) {
+/// Photographs of now are compared, and only compared.
+std::vector<ProjectorDrift> check(const fs::path& folder, const Wall& wall, const Arguments& arguments) {
   const auto source = openSource(folder, wall, arguments.photos, false);
   ConsoleProgress progress(arguments.progress);
-  const auto drifts = checkDrift(loadCalibration(folder), source->photographs(), arguments.only, progress);
+  auto drifts = checkDrift(loadCalibration(folder), source->photographs(), arguments.only, progress);
   fmt::print("\n{}", formatDrifts(drifts));
+  return drifts;
+}
+
+/// Those whose picture has moved by more than `limit` pixels. Throws about those that cannot be seen at all.
+std::vector<std::string> movedBeyond(const std::vector<ProjectorDrift>& drifts, double limit) {
+  std::vector<std::string> moved;
+  for (const auto& [name, drift, verdict] : drifts) {
+    if (isUnseen(drift)) throw ProcedureError("projector " + name + ": " + verdict + "; nothing was measured again");
+    if (isFarOff(drift) || drift.rms > limit) moved.push_back(name);
+  }
+  return moved;
 }
 
 void changeNudges(const fs::path& folder, const Wall& wall, const Arguments& arguments) {
@@ -123,15 +137,7 @@ void changeNudges(const fs::path& folder, const Wall& wall, const Arguments& arg
   saveNudges(folder, nudges);
 }
 
-void calibrate(const Arguments& arguments) {
-  const fs::path folder = arguments.wall;
-  const Wall wall = loadWall(folder);
-  if (!arguments.patterns.empty()) return writePatternFolder(wall, arguments);
-  if (wall.isFlat()) return calibrateFlat(folder, wall);
-  requireProjectors(wall, "--skip", arguments.skip);
-  requireProjectors(wall, "--only", arguments.only);
-  if (arguments.check) return check(folder, wall, arguments);
-  changeNudges(folder, wall, arguments);
+void runProcedure(const fs::path& folder, const Wall& wall, const Arguments& arguments) {
   std::unique_ptr<PhotographSource> source;
   if (needsPhotographs(wall, arguments)) source = openSource(folder, wall, arguments.photos, true);
   ConsoleProgress progress(arguments.progress);
@@ -146,6 +152,30 @@ void calibrate(const Arguments& arguments) {
   if (ran.empty()) fmt::print("nothing has changed since the last calibration (--all measures again)\n");
   if (!ran.empty()) procedure.save();
   finish(folder, wall, procedure.calibration());
+}
+
+/// What has moved is measured again, where it has moved by more than was asked.
+void recalibrate(const fs::path& folder, const Wall& wall, Arguments arguments) {
+  arguments.only = movedBeyond(check(folder, wall, arguments), arguments.recalibrate.value_or(0));
+  if (arguments.only.empty()) {
+    fmt::print("nothing has moved by more than {} px: nothing was measured again\n", *arguments.recalibrate);
+  } else {
+    fmt::print("measured again: {}\n", fmt::join(arguments.only, ", "));
+    runProcedure(folder, wall, arguments);
+  }
+}
+
+void calibrate(const Arguments& arguments) {
+  const fs::path folder = arguments.wall;
+  const Wall wall = loadWall(folder);
+  if (!arguments.patterns.empty()) return writePatternFolder(wall, arguments);
+  if (wall.isFlat()) return calibrateFlat(folder, wall);
+  requireProjectors(wall, "--skip", arguments.skip);
+  requireProjectors(wall, "--only", arguments.only);
+  if (arguments.recalibrate) return recalibrate(folder, wall, arguments);
+  if (arguments.check) return (void)check(folder, wall, arguments);
+  changeNudges(folder, wall, arguments);
+  runProcedure(folder, wall, arguments);
 }
 
 }  // namespace
@@ -173,6 +203,9 @@ int main(int argc, char** argv) {
   app.add_option("--skip", arguments.skip, "leave these projectors out")->delimiter(',');
   app.add_option("--only", arguments.only, "measure these projectors again, against the stored rest")->delimiter(',');
   app.add_flag("--check", arguments.check, "photograph one pattern per projector and say how far each has moved");
+  app.add_option("--recalibrate", arguments.recalibrate,
+                 "check, then measure those again that have moved by more than so many of their pixels")
+      ->check(CLI::Range(0.0, 1e4));
   app.add_option(
       "--nudge", arguments.nudges,
       "correct by hand, in projector pixels and degrees: NAME:x=1.5,y=-0.5,roll=0.1,tl=X/Y,tr=X/Y,br=X/Y,bl=X/Y; "

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
@@ -35,6 +36,7 @@ struct PresetOptions {
   std::string name;
   bool dryRun = false;
   bool verify = false;
+  std::optional<double> recalibrate;  // pixels
 };
 
 int list(const PresetOptions& options) {
@@ -91,15 +93,19 @@ bool hasCamera(const std::string& folder) {
 }
 
 /// One photograph per projector, compared with the calibration, by the program that can.
-int verify(const std::string& wall) {
-  if (!hasCamera(wall)) {
+int verify(const PresetOptions& options) {
+  if (!hasCamera(options.wall)) {
     fmt::print("this wall has no camera of its own: nothing was verified\n");
     return 0;
   }
-  std::string program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "pixelflex-calibrate";
-  std::string folder = wall;
-  std::string check = "--check";
-  std::vector<char*> arguments = {program.data(), folder.data(), check.data(), nullptr};
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "pixelflex-calibrate";
+  std::vector<std::string> words = {program, options.wall, "--check"};
+  if (options.recalibrate) {
+    words.insert(words.end(), {"--recalibrate", fmt::format("{}", *options.recalibrate)});
+  }
+  std::vector<char*> arguments;
+  for (auto& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
   pid_t child = 0;
   std::fflush(stdout);
   if (::posix_spawn(&child, program.c_str(), nullptr, nullptr, arguments.data(), environ) != 0) {
@@ -163,8 +169,9 @@ int runPreset(const PresetOptions& options) {
     return 0;
   }
   const int status = runWithDevices(options);
-  if (status != 0 || !options.verify || options.dryRun || options.action != "restore") return status;
-  return verify(options.wall);
+  const bool verifies = options.verify || options.recalibrate;
+  if (status != 0 || !verifies || options.dryRun || options.action != "restore") return status;
+  return verify(options);
 }
 
 void defineOptions(CLI::App& app, PresetOptions& options) {
@@ -175,6 +182,10 @@ void defineOptions(CLI::App& app, PresetOptions& options) {
   app.add_option("NAME", options.name, "The preset");
   app.add_flag("--dry-run", options.dryRun, "restore: only print what would be done");
   app.add_flag("--verify", options.verify, "restore: have the camera look afterwards how far each projector is off");
+  app.add_option("--recalibrate", options.recalibrate,
+                 "restore: as --verify, and projectors that are off by more than so many of their pixels are measured "
+                 "again")
+      ->check(CLI::Range(0.0, 1e4));
   app.set_version_flag("--version", "pixelflex-preset " PIXELFLEX_VERSION);
   app.footer(
       "A preset holds the settings of all devices and the calibration that belongs to them. Restoring changes only\n"
