@@ -38,8 +38,8 @@ target_link_libraries(latency_bench PRIVATE pixelflex_options pixelflex_test_sup
   pixelflex_x11source pixelflex_renderer pixelflex_store CLI11::CLI11 fmt::fmt X11::X11 PkgConfig::EPOXY)
 target_compile_definitions(latency_bench PRIVATE PIXELFLEX_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
 add_dependencies(latency_bench pixelflex-new pixelflex-view)
-add_executable(viewer_bench bench/viewer_bench.cpp bench/desktop_client.cpp bench/desktop_client.h bench/thread_times.cpp bench/thread_times.h)
-target_link_libraries(viewer_bench PRIVATE pixelflex_options pixelflex_test_calibration pixelflex_test_support
+add_executable(viewer_bench bench/viewer_bench.cpp bench/desktop_client.cpp bench/desktop_client.h bench/measured_viewer.cpp bench/measured_viewer.h bench/thread_times.cpp bench/thread_times.h)
+target_link_libraries(viewer_bench PRIVATE pixelflex_options pixelflex_store pixelflex_test_calibration pixelflex_test_support
   pixelflex_tiles CLI11::CLI11 fmt::fmt X11::X11)
 target_compile_definitions(viewer_bench PRIVATE PIXELFLEX_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
 add_dependencies(viewer_bench pixelflex-new pixelflex-view)

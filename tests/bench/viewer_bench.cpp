@@ -17,7 +17,9 @@
 #include <vector>
 
 #include "calib/simulate/rig_generator.h"
+#include "calib/store/store.h"
 #include "tests/bench/desktop_client.h"
+#include "tests/bench/measured_viewer.h"
 #include "tests/bench/thread_times.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
@@ -29,27 +31,13 @@ namespace pixelflex::testing {
 namespace {
 
 using namespace std::chrono_literals;
-using Clock = std::chrono::steady_clock;
-
-constexpr auto kPatience = 120s;
 
 struct Options {
-  std::vector<std::string> what{"start", "idle", "source", "memory"};
+  std::vector<std::string> what{"start", "idle", "windows", "source", "memory"};
   bool tiny = false;
   int starts = 7;
   double seconds = 10;  // of idleness, and of motion
 };
-
-std::string textOf(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-void waitUntil(const std::function<bool()>& done, const std::string& what) {
-  for (const auto deadline = Clock::now() + kPatience; !done(); std::this_thread::sleep_for(1ms)) {
-    if (Clock::now() > deadline) throw std::runtime_error("in vain waited for " + what);
-  }
-}
 
 /// The report's wall, calibrated once, and what its calibration wants of the desktop.
 class Wall {
@@ -59,58 +47,31 @@ class Wall {
     const auto rig = calib::calibrateRig(room, folder_ / "wall", calib::Method::kBlobs, {.uniformity = 0.5});
     desktop_ = rig.calibration.display->resolution;
     projectors_ = rig.calibration.projectors.size();
+    for (const auto& projector : rig.calibration.projectors)
+      pixels_ += static_cast<double>(projector.resolution.area());
+  }
+  /// Each projector's picture in a window of an X screen, four side by side.
+  void putOnto(const std::string& display) const {
+    calib::Wall wall = calib::loadWall(folder_ / "wall");
+    for (std::size_t i = 0; i < wall.projectors.size(); ++i) {
+      const devices::Size size = wall.projectors[i].resolution;
+      const glm::ivec2 place(static_cast<int>(i % 4), static_cast<int>(i / 4));
+      wall.projectors[i].output = {
+          .kind = calib::OutputKind::kDisplay, .display = display, .at = place * glm::ivec2(size.width, size.height)};
+    }
+    calib::saveWall(folder_ / "wall", wall);
   }
   [[nodiscard]] std::string folder() const { return (folder_ / "wall").string(); }
   [[nodiscard]] devices::Size desktop() const { return desktop_; }
   [[nodiscard]] std::size_t projectors() const { return projectors_; }
+  /// Of all projectors together.
+  [[nodiscard]] double pixels() const { return pixels_; }
 
  private:
   TemporaryFolder folder_;
   devices::Size desktop_;
   std::size_t projectors_ = 0;
-};
-
-/// pixelflex-view, headless, with its figures in a file.
-class Viewer {
- public:
-  Viewer(const std::string& wall, const std::string& server)
-      : begun_(Clock::now()),
-        process_({PIXELFLEX_BIN_DIR "/pixelflex-view", wall, server, "--headless", "--source", "vnc", "--stats-json",
-                  (folder_ / "stats").string()},
-                 {.environment = {"LIBGL_ALWAYS_SOFTWARE=1"}, .log = folder_ / "log"}) {}
-
-  /// Seconds from its start by this process's clock to the first picture.
-  double waitForPicture() {
-    waitUntil(
-        [this] {
-          if (!process_.running()) throw std::runtime_error("the viewer has ended: " + textOf(folder_ / "log"));
-          return textOf(folder_ / "stats").find("first_picture") != std::string::npos;
-        },
-        "the first picture");
-    return std::chrono::duration<double>(Clock::now() - begun_).count();
-  }
-  [[nodiscard]] ThreadTimes times() const { return threadTimes(process_.pid()); }
-  /// Until its threads have been still for a while.
-  void waitForRest() const {
-    double before = -1;
-    waitUntil(
-        [this, &before] {
-          std::this_thread::sleep_for(300ms);
-          const double now = times().all();
-          return now - std::exchange(before, now) < 0.002;
-        },
-        "the viewer's rest");
-  }
-  /// MiB, by the kernel's name of it.
-  [[nodiscard]] double memory(const std::string& name) const {
-    const std::string status = textOf("/proc/" + std::to_string(process_.pid()) + "/status");
-    return std::stod(status.substr(status.find(name + ":") + name.size() + 1)) / 1024;
-  }
-
- private:
-  TemporaryFolder folder_;
-  Clock::time_point begun_;
-  Process process_;
+  double pixels_ = 0;
 };
 
 double medianOf(std::vector<double> values) {
@@ -125,9 +86,9 @@ void measureStart(const Options& options, const Wall& wall) {
   std::vector<double> seconds;
   std::vector<double> driver;
   std::vector<double> own;
-  const double first = Viewer(wall.folder(), server.unixAddress()).waitForPicture();
+  const double first = MeasuredViewer(wall.folder(), server.unixAddress()).waitForPicture();
   for (int i = 0; i < options.starts; ++i) {
-    Viewer viewer(wall.folder(), server.unixAddress());
+    MeasuredViewer viewer(wall.folder(), server.unixAddress());
     seconds.push_back(viewer.waitForPicture());
     driver.push_back(viewer.times().driver);
     own.push_back(viewer.times().own());
@@ -149,7 +110,7 @@ void printIdle(const char* name, const ThreadTimes& used, double seconds) {
 void measureIdle(const Options& options, const Wall& wall) {
   XvncServer server({.size = wall.desktop()});
   for (const bool direct : {false, true}) {
-    Viewer viewer(wall.folder(), direct ? "x11:" + server.x().display() : server.unixAddress());
+    MeasuredViewer viewer(wall.folder(), direct ? "x11:" + server.x().display() : server.unixAddress());
     (void)viewer.waitForPicture();
     viewer.waitForRest();
     auto before = viewer.times();
@@ -159,6 +120,42 @@ void measureIdle(const Options& options, const Wall& wall) {
     DesktopClient(server.x().display()).movePointer(options.seconds);
     printIdle(direct ? "pointer/x11" : "pointer/vnc", viewer.times() - before, options.seconds);
   }
+}
+
+/// A mouse that goes round in circles over an X screen, 60 times a second: seconds that it took.
+double moveMouse(const XServer& screen, double seconds) {
+  std::vector<std::string> command{"xdotool"};
+  for (int i = 0; i < static_cast<int>(60 * seconds); ++i) {
+    const auto part = [i](double phase) { return std::to_string(std::lround(12 * std::cos(0.03 * i + phase))); };
+    command.insert(command.end(), {"mousemove_relative", "--", part(0), part(1.57), "sleep", "0.0166"});
+  }
+  const auto begun = std::chrono::steady_clock::now();
+  (void)screen.query(command);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+}
+
+/// The wall's own mouse over the desktop, as the viewer has it by itself on such a wall: each motion is drawn.
+void measureWindows(const Options& options, const Wall& wall) {
+  XvncServer server({.size = wall.desktop()});
+  server.x().query({"xsetroot", "-solid", "#406080", "-cursor_name", "left_ptr"});
+  const XServer screen([](const TemporaryFolder&) {
+    return std::vector<std::string>{"Xvfb", "-screen", "0", "4096x1536x24", "-nolisten", "tcp", "-noreset"};
+  });
+  wall.putOnto(screen.display());
+  MeasuredViewer viewer(wall.folder(), server.unixAddress(), {});
+  (void)viewer.waitForPicture();
+  viewer.waitForRest();
+  auto before = viewer.times();
+  std::this_thread::sleep_for(std::chrono::duration<double>(options.seconds));
+  printIdle("idle/windows", viewer.times() - before, options.seconds);
+  before = viewer.times();
+  const double moved = moveMouse(screen, options.seconds);
+  printIdle("pointer/windows", viewer.times() - before, moved);
+  const DrawnWork work = viewer.end();
+  const double frames = work.outputs - static_cast<double>(wall.projectors());  // without the first of each
+  fmt::print(R"({{"benchmark": "pointer/drawn", "motions": {}, "frames": {}, "kilopixels_a_frame": {:.2f}}})"
+             "\n",
+             static_cast<int>(60 * options.seconds), frames, (work.pixels - wall.pixels()) / 1e3 / frames);
 }
 
 /// A small wall, so that the desktop's way to the GPU is what costs.
@@ -176,7 +173,7 @@ void measureSource(const Options& options) {
   ThreadTimes vnc;
   double vncServer = 0;
   for (const bool direct : {false, true}) {
-    Viewer viewer(wall, direct ? "x11:" + server.x().display() : server.unixAddress());
+    MeasuredViewer viewer(wall, direct ? "x11:" + server.x().display() : server.unixAddress());
     (void)viewer.waitForPicture();
     viewer.waitForRest();
     ThreadTimes used;
@@ -225,7 +222,7 @@ void measureMemory(const Options& options, const Wall& wall) {
     for (const auto& desktop : {small, large}) {
       XvncServer server({.size = desktop});
       server.x().query({"xsetroot", "-mod", "5", "7", "-fg", "#80a0c0", "-bg", "#203040"});
-      Viewer viewer(wall.folder(), direct ? "x11:" + server.x().display() : server.unixAddress());
+      MeasuredViewer viewer(wall.folder(), direct ? "x11:" + server.x().display() : server.unixAddress());
       (void)viewer.waitForPicture();
       viewer.waitForRest();
       DesktopClient(server.x().display()).repaint();
@@ -253,11 +250,12 @@ void measureMemory(const Options& options, const Wall& wall) {
 int measure(const Options& options) {
   const auto asked = [&](const char* one) { return std::ranges::find(options.what, one) != options.what.end(); };
   if (asked("source")) measureSource(options);
-  if (!asked("start") && !asked("idle") && !asked("memory")) return 0;
+  if (!asked("start") && !asked("idle") && !asked("windows") && !asked("memory")) return 0;
   const Wall wall(options.tiny);
   if (asked("start")) measureStart(options, wall);
   if (asked("idle")) measureIdle(options, wall);
   if (asked("memory")) measureMemory(options, wall);
+  if (asked("windows")) measureWindows(options, wall);
   return 0;
 }
 
@@ -268,11 +266,16 @@ int main(int argc, char** argv) {
   using namespace pixelflex::testing;
   Options options;
   CLI::App app(
-      "What the whole headless viewer costs on the report's wall. start: from exec to the first picture; idle: of a "
-      "desktop that rests, and of one over which the pointer moves 60 times a second; source: processor seconds when "
+      "What the whole viewer costs, headless but for the windows, on the report's wall. start: from exec to the first "
+      "picture; idle: of a "
+      "desktop that rests, and of one over which the pointer moves 60 times a second; windows: the same of the mouse "
+      "over "
+      "the projectors' windows; source: processor seconds when "
       "all "
       "of 7680x4320 pixels change, by VNC and straight from the X server; memory: of 16384x8192 pixels.");
-  app.add_option("--what", options.what)->delimiter(',')->check(CLI::IsMember({"start", "idle", "source", "memory"}));
+  app.add_option("--what", options.what)
+      ->delimiter(',')
+      ->check(CLI::IsMember({"start", "idle", "windows", "source", "memory"}));
   app.add_option("--starts", options.starts)->check(CLI::Range(1, 1000));
   app.add_option("--seconds", options.seconds, "of idleness, and of motion")->check(CLI::Range(0.1, 3600.0));
   app.add_flag("--tiny", options.tiny, "two small projectors and small desktops, to see that this works");
