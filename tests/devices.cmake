@@ -42,7 +42,7 @@ add_dependencies(preset_cli_test pixelflex-device pixelflex-preset pixelflex-che
 
 # Photographs over GigE Vision, between programs of others and of this house.
 pixelflex_test(gige_camera_test LABEL unit
-  SOURCES unit/gige_camera_test.cpp unit/raw_picture_test.cpp support_devices/gige_place.h
+  SOURCES unit/gige_camera_test.cpp support_devices/gige_place.h
   LINK pixelflex_gige_camera pixelflex_cameras pixelflex_test_support)
 
 # The whole room: devices, projectors and the camera, every one by its own protocol.
@@ -50,3 +50,7 @@ pixelflex_test(served_room_test LABEL e2e TIMEOUT 600
   SOURCES e2e/served_room_test.cpp support_calibration/registration.cpp support_calibration/registration.h support_devices/gige_place.h
   LINK pixelflex_test_support pixelflex_simulate pixelflex_store pixelflex_geometry)
 add_dependencies(served_room_test pixelflex-new pixelflex-calibrate pixelflex-camera pixelflex-device pixelflex-preset pixelflex-simulate)
+
+pixelflex_test(camera_test LABEL unit
+  SOURCES unit/v4l2_camera_test.cpp unit/raw_picture_test.cpp support_devices/fake_video.h
+  LINK pixelflex_cameras)

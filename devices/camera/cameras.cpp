@@ -5,6 +5,7 @@
 
 #include "devices/camera/aravis_camera.h"
 #include "devices/camera/camera_error.h"
+#include "devices/camera/v4l2_camera.h"
 
 namespace pixelflex::devices {
 namespace {
@@ -14,7 +15,8 @@ struct Kind {
   std::vector<CameraInfo> (*list)();
   std::unique_ptr<Camera> (*open)(const std::string& name);
 };
-constexpr std::array kKinds = {Kind{"aravis:", listAravisCameras, openAravisCamera}};
+constexpr std::array kKinds = {Kind{"v4l2:", listV4l2Cameras, openV4l2Camera},
+                               Kind{"aravis:", listAravisCameras, openAravisCamera}};
 
 }  // namespace
 

@@ -59,10 +59,9 @@ class JpegReader {
 /// At best a block of 64 pixels takes two bits in each component, and the colours are halved both ways.
 constexpr std::uintmax_t kMaxPixelsPerByte = 1024;
 
-Image8 decodeJpeg(std::FILE* file, std::uintmax_t fileBytes) {
-  JpegReader reader;
+/// From the source that the reader has.
+Image8 decodeJpeg(JpegReader& reader, std::uintmax_t fileBytes) {
   auto& info = reader.info();
-  jpeg_stdio_src(&info, file);
   jpeg_read_header(&info, TRUE);
   checkPromisedSize(info.image_width, info.image_height, fileBytes * kMaxPixelsPerByte);
   info.out_color_space = JCS_RGB;
@@ -102,13 +101,25 @@ Image8 readPhoto(const std::filesystem::path& path) {
   if (start[0] == 0xFF && start[1] == 0xD8) {
     std::rewind(file.get());
     try {
-      return decodeJpeg(file.get(), std::filesystem::file_size(path));
+      JpegReader reader;
+      jpeg_stdio_src(&reader.info(), file.get());
+      return decodeJpeg(reader, std::filesystem::file_size(path));
     } catch (const std::exception& error) {
       throw ImageError(path.string() + ": damaged JPEG: " + error.what());
     }
   }
   if (start[0] == 0x89 && start[1] == 'P') return toRgb(readPng8(path));
   throw ImageError(path.string() + ": neither a PNG nor a JPEG file");
+}
+
+Image8 readJpeg(std::span<const std::uint8_t> bytes) {
+  try {
+    JpegReader reader;
+    jpeg_mem_src(&reader.info(), bytes.data(), static_cast<unsigned long>(bytes.size()));
+    return decodeJpeg(reader, bytes.size());
+  } catch (const std::exception& error) {
+    throw ImageError(std::string("damaged JPEG: ") + error.what());
+  }
 }
 
 }  // namespace pixelflex::devices

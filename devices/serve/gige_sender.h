@@ -63,7 +63,7 @@ class GigeSender {
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
   std::uint64_t changes_ = 0;
-  std::atomic<std::uint64_t> ended_ = 0;  // how often acquisition has
+  std::atomic<std::uint64_t> ended_ = 0;               // how often acquisition has
   std::deque<std::shared_ptr<const GigeFrame>> sent_;  // the newest last
   std::uint16_t block_ = 0;
   std::jthread thread_;
