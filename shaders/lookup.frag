@@ -1,10 +1,11 @@
-// The last look-up: from a scene's blended light to the codes of the device.
+// Over the whole frame at the near plane, after the scene: the blend mask, and the last look-up, from light to the codes
+// of the device.
 uniform sampler2D scene;
 #if COLOUR
 uniform mat3 colour;
 #endif
-#if BLACK
-uniform usampler2D lightMap;  // upper half: black; 65535 is 1
+#if MASK || BLACK
+uniform usampler2D lightMap;  // lower half: root of blend and gain, upper half: black; 65535 is 1
 uniform vec3 largestBlack;    // light, over 65535
 #endif
 
@@ -14,10 +15,17 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec3 light = texelFetch(scene, pixel, 0).rgb;
 #if COLOUR
-  light = colour * light;  // a mask that is a factor of all three colours may come before
+  light = colour * light;
+#endif
+#if MASK || BLACK
+  uint both = texelFetch(lightMap, pixel, 0).r;
+#endif
+#if MASK
+  float root = float(both & 0xffffu) * (1.0 / 65535.0);
+  light *= root * root;
 #endif
 #if BLACK
-  light += largestBlack * float(texelFetch(lightMap, pixel, 0).r >> 16);
+  light += largestBlack * float(both >> 16);
 #endif
   vec3 value = clamp(deviceFromLight(clamp(light, 0.0, 1.0)), 0.0, 1.0);
 #if DITHER

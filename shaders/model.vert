@@ -27,7 +27,7 @@ out vec3 inModel;
 out vec3 inWindow;
 out vec3 normalInWindow;
 out vec2 picturePlace;
-out vec3 code;
+out vec4 code;
 
 void main() {
   vec4 onDesktop = desktopFromModel * vec4(position, 1.0);
@@ -51,5 +51,5 @@ void main() {
   inWindow = (windowFromModel * vec4(position, 1.0)).xyz;
   normalInWindow = mat3(windowFromModel) * normal.xyz;
   picturePlace = place;
-  code = colour.rgb;
+  code = colour;
 }

@@ -2,7 +2,7 @@
 pixelflex_test(model_scene_test LABEL unit SOURCES unit/model_scene_test.cpp unit/model_bad_files_test.cpp unit/model_files.h support/temporary_folder.cpp
   LINK pixelflex_scene)
 pixelflex_test(model_depth_test LABEL gl SOURCES gl/model_depth_test.cpp LINK pixelflex_model)
-pixelflex_test(model_light_test LABEL gl SOURCES gl/model_light_test.cpp LINK pixelflex_model)
+pixelflex_test(model_light_test LABEL gl SOURCES gl/model_light_test.cpp gl/model_material_test.cpp LINK pixelflex_model)
 pixelflex_test(model_stereo_test LABEL gl
   SOURCES gl/model_stereo_test.cpp support_calibration/plain_wall.cpp support_calibration/plain_wall.h
   LINK pixelflex_model_plan pixelflex_procedure)

@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "devices/display/gl_context.h"
+#include "tests/support/triangle_soups.h"
 #include "viewer/model/model_renderer.h"
-#include "viewer/model/triangle_soup.h"
 
 namespace pixelflex::viewer {
 namespace {
@@ -39,10 +39,7 @@ Scene sceneOf(const std::vector<Triangle>& triangles) {
   for (const auto& triangle : triangles) {
     for (const auto& corner : triangle) soup.push_back({.position = corner, .normal = {0, 0, 1}});
   }
-  Scene scene;
-  scene.materials.emplace_back();
-  addToScene(soup, 0, scene);
-  return scene;
+  return testing::sceneOf(soup);
 }
 
 /// Along the ray, as a multiple of it.
@@ -156,19 +153,7 @@ TEST(ModelDepth, StaysWithinTheClipRange) {
 }
 
 TEST(ModelRenderer, LeavesOutWhatAProjectorDoesNotSee) {
-  TriangleSoup soup;
-  constexpr int kSide = 250;
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      for (const glm::vec2 corner : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1)}) {
-        soup.push_back(
-            {.position = {static_cast<float>(x) + corner.x, static_cast<float>(y) + corner.y, 0}, .normal = {0, 0, 1}});
-      }
-    }
-  }
-  Scene scene;
-  scene.materials.emplace_back();
-  addToScene(soup, 0, scene);
+  Scene scene = testing::sceneOf(testing::triangleLattice(250));
   const auto all = scene.triangles();
   std::vector<ModelOutput> outputs;
   for (const double shift : {0.0, -3.0, -1000.0}) {

@@ -6,26 +6,14 @@
 #include <cmath>
 
 #include "devices/display/gl_context.h"
+#include "tests/support/triangle_soups.h"
 #include "viewer/model/model_renderer.h"
-#include "viewer/model/triangle_soup.h"
 
 namespace pixelflex::viewer {
 namespace {
 
 constexpr devices::Size kFrame{64, 48};
 const glm::dvec3 kLight(0.7, 0.3, 0.15);
-
-/// One sheet over the whole window, which shows its colour as it is.
-Scene sheet() {
-  TriangleSoup soup;
-  for (const glm::ivec2 corner : {glm::ivec2(0, 0), {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}}) {
-    soup.push_back({.position = {300 * corner.x, 300 * corner.y, 0}, .normal = {0, 0, 1}});
-  }
-  Scene scene;
-  scene.materials.push_back({.colour = kLight, .lit = false});
-  addToScene(soup, 0, scene);
-  return scene;
-}
 
 devices::Image16 map(int seed) {
   devices::Image16 image(kFrame, 1);
@@ -46,7 +34,7 @@ devices::Image8 shown(const OutputPlan& light, bool away = false) {
   devices::HeadlessContext context;
   const devices::GlDebugLog log;
   ModelRenderer renderer(context, {{.light = light}});
-  renderer.setScene(sheet());
+  renderer.setScene(testing::sceneOf(testing::sheetAt(0, 150), {.colour = kLight, .lit = false}));
   ModelView view{.window = {{100, 100}}, .viewer = {.eye = {0, 0, 120}}, .pose = {.zoom = 4}};
   if (away) view.pose.shift.x = 100;
   renderer.setView(view);

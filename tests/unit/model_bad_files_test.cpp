@@ -2,16 +2,26 @@
 #include <cmath>
 #include <random>
 
+#include "devices/image/png_file.h"
 #include "tests/unit/model_files.h"
 
 namespace pixelflex::viewer {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 using ModelBadFilesTest = ModelFilesTest;
+
+/// One mesh of so many corners, out of one buffer.
+std::string gltfOf(std::uint64_t corners, const std::string& buffer) {
+  return R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"scene":0,"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+         R"("accessors":[{"bufferView":0,"componentType":5126,"count":)" +
+         std::to_string(corners) + R"(,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":12}],"buffers":[)" +
+         buffer + "]}";
+}
 
 TEST_F(ModelBadFilesTest, CoordinatesThatAreNoNumbersAreLeftOutByName) {
   std::string body;
@@ -46,11 +56,44 @@ TEST_F(ModelBadFilesTest, ABillionClaimedVerticesCostNothing) {
   EXPECT_THAT(failure("huge.ply", binaryPly(plyHeader(1'000'000'000, 1), "")), HasSubstr("1000000000 of vertex"));
   EXPECT_THAT(failure("huge.stl", std::string(80, ' ') + bytesOf(std::uint32_t{1'000'000'000})),
               HasSubstr("1000000000 triangles"));
-  const std::string gltf =
-      R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"scene":0,"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
-      R"("accessors":[{"bufferView":0,"componentType":5126,"count":1000000000,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":12}],)"
-      R"("buffers":[{"byteLength":12,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAA"}]})";
-  EXPECT_THAT(failure("huge.gltf", gltf), HasSubstr("huge.gltf"));
+  const std::string twelveBytes = R"({"byteLength":12,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAA"})";
+  EXPECT_THAT(failure("huge.gltf", gltfOf(1'000'000'000, twelveBytes)), HasSubstr("huge.gltf"));
+  EXPECT_THAT(failure("buffer.gltf", gltfOf(3, R"({"byteLength":99000000000})")), HasSubstr("buffer.gltf"));
+  EXPECT_THAT(failure("huge.txt.ply", "ply\nformat ascii 1.0\n" + plyHeader(1'000'000'000, 1) + "0 0 0\n"),
+              HasSubstr("1000000000 of vertex"));
+  EXPECT_THAT(failure("more.ply", binaryPly(plyHeader(18'446'744'073'709'551'615U, 3), "x")), HasSubstr("more.ply"));
+}
+
+/// A model alone in a folder, beside which lies what it must not reach.
+TEST_F(ModelBadFilesTest, NothingOutsideOfTheModelsFolderIsOpened) {
+  file("red.mtl", "newmtl m\nKd 1 0 0\n");
+  std::filesystem::create_directory(folder_ / "in");
+  const std::string cube = "usemtl m\n" + kCube;
+  for (const std::string& name :
+       {std::string("../red.mtl"), (folder_ / "red.mtl").string(), std::string("/dev/zero")}) {
+    const Scene scene = load("in/cube.obj", "mtllib " + name + "\n" + cube);
+    EXPECT_EQ(scene.triangles(), 12U);
+    for (const auto& material : scene.materials) EXPECT_NE(material.colour, glm::vec3(1, 0, 0));
+    EXPECT_THAT(scene.warnings, Contains(AllOf(HasSubstr("cube.obj"), HasSubstr("no file of the model's folder"))));
+  }
+  EXPECT_THAT(failure("in/far.gltf", gltfOf(3, R"({"byteLength":36,"uri":"../far.bin"})")), HasSubstr("far.gltf"));
+  // Names of another machine are found beside the model.
+  file("in/red.mtl", "newmtl m\nKd 1 0 0\nmap_Kd C:\\\\pictures\\wood.png\n");
+  devices::writePng(folder_ / "in" / "wood.png", devices::Image8({2, 2}, 3));
+  EXPECT_EQ(load("in/cube.obj", "mtllib red.mtl\n" + cube).pictures.size(), 1U);
+}
+
+TEST_F(ModelBadFilesTest, FacesOfCornersThatAreNotThereAreAnErrorOrLeftOut) {
+  for (const std::string& name : {std::string("far.obj"), std::string("back.obj"), std::string("huge.obj")}) {
+    const std::string corner = name == "far.obj" ? "1000000000" : name == "back.obj" ? "-1000000000" : "99999999999999";
+    const std::array files{file(name, kCube + "f 1 2 " + corner + "\n")};
+    try {
+      const Scene scene = loadScene(files);
+      for (const auto index : scene.indices) ASSERT_LT(index, scene.vertices.size());
+    } catch (const ModelError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(name));
+    }
+  }
 }
 
 // Whatever a few changed bytes make of a file: a scene that is sound, or an error.

@@ -1,18 +1,20 @@
 // Models as files: what they become.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
 #include <glm/vec4.hpp>
+#include <map>
 #include <sstream>
 #include <string>
 
 #include "devices/image/png_file.h"
+#include "tests/support/triangle_soups.h"
 #include "tests/unit/model_files.h"
-#include "viewer/model/triangle_soup.h"
 
 namespace pixelflex::viewer {
 namespace {
@@ -86,6 +88,42 @@ TEST_F(ModelSceneTest, MaterialsAndPicturesAreRead) {
   EXPECT_TRUE(wood);
   // The top-left corner of a picture is (0, 0).
   for (const auto& vertex : scene.vertices) EXPECT_FLOAT_EQ(vertex.texture.y, 1 - vertex.position.y);
+}
+
+TEST_F(ModelSceneTest, MaterialsSayWhatLetsSeeThroughAndWhatShines) {
+  devices::Image8 leaf({8, 8}, 4);
+  for (int y = 0; y < 8; ++y) leaf.at(2, y, 3) = 255;
+  devices::writePng(folder_ / "leaf.png", leaf);
+  devices::Image8 haze({8, 8}, 3);
+  std::ranges::fill(haze.samples(), std::uint8_t{128});
+  devices::writePng(folder_ / "haze.png", haze);
+  file("m.mtl",
+       "newmtl glass\nKd 0 1 0\nd 0.25\nillum 2\nKs 1 1 1\nNs 50\n"
+       "newmtl leaf\nmap_Kd leaf.png\nKe 0.5 0 0\nnewmtl haze\nmap_Kd leaf.png\nmap_d haze.png\n");
+  std::string cube = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
+  for (const std::string material : {"glass", "leaf", "haze"}) cube += "usemtl " + material + "\nf 1/1 2/1 3/1\n";
+  const Scene scene = load("m.obj", cube);
+  std::map<Solidity, Material> found;
+  for (const auto& part : scene.parts) {
+    const auto& material = scene.materials[static_cast<std::size_t>(part.material)];
+    if (material.opacity < 1) {
+      EXPECT_EQ(material.solidity, Solidity::kClear);
+      EXPECT_EQ(material.shine, glm::vec3(1));
+      EXPECT_EQ(material.shininess, 50);
+    } else {
+      found[material.solidity] = material;
+    }
+  }
+  ASSERT_TRUE(found.contains(Solidity::kCutOut));
+  EXPECT_GT(found[Solidity::kCutOut].emission.r, 0.1F);
+  const auto pictureOf = [&](Solidity solidity) {
+    return scene.pictures.at(static_cast<std::size_t>(found[solidity].picture));
+  };
+  EXPECT_EQ(pictureOf(Solidity::kCutOut).at(2, 3, 3), 255);
+  EXPECT_EQ(pictureOf(Solidity::kCutOut).at(3, 3, 3), 0);
+  ASSERT_TRUE(found.contains(Solidity::kClear));
+  EXPECT_EQ(pictureOf(Solidity::kClear).at(3, 3, 3), 128);
+  EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
 TEST_F(ModelSceneTest, AMissingPictureIsNamed) {
@@ -165,19 +203,8 @@ TEST_F(ModelSceneTest, SeveralFilesShareTheirCoordinates) {
 }
 
 TEST(TriangleSoup, PartsLieTogether) {
-  TriangleSoup soup;
   constexpr int kSide = 200;
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      for (const glm::vec2 corner : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1)}) {
-        soup.push_back(
-            {.position = {static_cast<float>(x) + corner.x, static_cast<float>(y) + corner.y, 0}, .normal = {0, 0, 1}});
-      }
-    }
-  }
-  Scene scene;
-  scene.materials.emplace_back();
-  addToScene(soup, 0, scene);
+  const Scene scene = testing::sceneOf(testing::triangleLattice(kSide));
   EXPECT_EQ(scene.triangles(), std::size_t{kSide} * kSide);
   EXPECT_GE(scene.parts.size(), 4U);
   float area = 0;

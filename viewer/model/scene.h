@@ -25,14 +25,23 @@ struct SceneVertex {
   glm::vec3 position{0};       // model units
   std::uint32_t normal = 0;    // unit, signed 10 bits for each of x, y and z, x lowest
   glm::vec2 texture{0};        // (0, 0) is the top-left corner of the picture
-  std::uint32_t colour = ~0U;  // sRGB codes, red lowest; times the material's
+  std::uint32_t colour = ~0U;  // sRGB codes, red lowest, opacity highest; times the material's
   bool operator==(const SceneVertex&) const = default;
 };
+
+/// What is there of a surface: all of it, all where its picture is dense enough, or a share that lets see through.
+enum class Solidity : std::uint8_t { kOpaque, kCutOut, kClear };
 
 struct Material {
   glm::vec3 colour{0.8F};  // linear light
   int picture = -1;        // of Scene::pictures; times the colour
   bool lit = true;         // false: shows its colour as it is
+  Solidity solidity = Solidity::kOpaque;
+  float opacity = 1;      // times the picture's and the corners' fourth channel
+  float cutoff = 0.5F;    // of kCutOut: what is less opaque is not there
+  glm::vec3 emission{0};  // linear light
+  glm::vec3 shine{0};     // of the lamp's light, what is thrown back where it is strongest
+  float shininess = 1;    // exponent (Blinn): how small that place is
 };
 
 /// An upright box.
@@ -66,7 +75,7 @@ struct Scene {
   std::vector<std::uint32_t> indices;  // three a triangle
   std::vector<ScenePart> parts;
   std::vector<Material> materials;
-  std::vector<devices::Image8> pictures;  // three channels, sRGB codes
+  std::vector<devices::Image8> pictures;  // three or four channels, sRGB codes, opacity
   std::vector<std::string> warnings;      // what of the files is not shown
 
   [[nodiscard]] Bounds3 bounds() const;

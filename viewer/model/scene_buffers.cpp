@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
 
+#include "viewer/model/picture_texture.h"
 #include "viewer/renderer/renderer_error.h"
 
 namespace pixelflex::viewer {
@@ -29,21 +28,6 @@ devices::GlBuffer bufferOf(std::vector<T> values) {
                                     bytes.size() >> 20));
   }
   return buffer;
-}
-
-devices::GlTexture textureOf(const devices::Image8& picture) {
-  auto texture = devices::GlTexture::create(GL_TEXTURE_2D);
-  const auto longest = static_cast<unsigned>(std::max(picture.width(), picture.height()));
-  const auto levels = static_cast<GLsizei>(std::bit_width(longest));
-  // Decoded before they are filtered, all levels too.
-  glTextureStorage2D(texture.get(), levels, GL_SRGB8_ALPHA8, picture.width(), picture.height());
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTextureSubImage2D(texture.get(), 0, 0, 0, picture.width(), picture.height(), GL_RGB, GL_UNSIGNED_BYTE,
-                      picture.samples().data());
-  glGenerateTextureMipmap(texture.get());
-  glTextureParameteri(texture.get(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  glTextureParameteri(texture.get(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  return texture;
 }
 
 void attribute(GLuint array, GLuint index, GLint size, GLenum type, bool normalised, std::size_t offset) {
@@ -86,63 +70,104 @@ SceneBuffers::SceneBuffers(Scene scene)
     : parts_(std::move(scene.parts)), materials_(std::move(scene.materials)), triangles_(scene.indices.size() / 3) {
   std::ranges::stable_sort(parts_, {}, &ScenePart::material);
   for (const auto& part : parts_) bounds_.add(part.bounds);
+  for (const auto& part : parts_) {
+    if (material(part.material).solidity == Solidity::kClear) clear_.add(scene, part);
+  }
   bytes_ = scene.vertices.size() * sizeof(SceneVertex) + scene.indices.size() * sizeof(std::uint32_t);
   vertices_ = bufferOf(std::move(scene.vertices));
   indices_ = bufferOf(std::move(scene.indices));
+  makeVertexArray();
+  std::vector<bool> weighted(scene.pictures.size(), false);
+  for (const auto& own : materials_) {
+    if (own.picture >= 0 && own.solidity != Solidity::kOpaque) weighted[static_cast<std::size_t>(own.picture)] = true;
+  }
+  for (std::size_t i = 0; i < weighted.size(); ++i) {
+    pictures_.push_back(pictureTexture(std::exchange(scene.pictures[i], {}), weighted[i]));
+  }
+}
+
+void SceneBuffers::makeVertexArray() {
   vertexArray_ = devices::GlVertexArray::create();
   const auto array = vertexArray_.get();
   glVertexArrayVertexBuffer(array, 0, vertices_.get(), 0, sizeof(SceneVertex));
-  glVertexArrayElementBuffer(array, indices_.get());
   attribute(array, 0, 3, GL_FLOAT, false, offsetof(SceneVertex, position));
   attribute(array, 1, 4, GL_INT_2_10_10_10_REV, true, offsetof(SceneVertex, normal));
   attribute(array, 2, 2, GL_FLOAT, false, offsetof(SceneVertex, texture));
   attribute(array, 3, 4, GL_UNSIGNED_BYTE, true, offsetof(SceneVertex, colour));
-  for (auto& picture : scene.pictures) pictures_.push_back(textureOf(std::exchange(picture, {})));
 }
 
-DrawnParts SceneBuffers::draw(const devices::GlProgram& program, const glm::dmat4& desktopFromModel,
-                              const glm::dmat4& projectorFromModel) const {
+bool SceneBuffers::isSeen(const ScenePart& part, const SceneSight& sight) const {
   // A lens may bend what lies a little outside the frame into it.
   constexpr double kLensSlack = 1.1;
-  std::vector<const ScenePart*> seen;
-  for (const auto& part : parts_) {
-    if (isOutside(part.bounds, desktopFromModel, 1) || isOutside(part.bounds, projectorFromModel, kLensSlack)) continue;
-    seen.push_back(&part);
-  }
-  return drawParts(program, seen);
+  return !sight.cull || !(isOutside(part.bounds, sight.desktopFromModel, 1) ||
+                          isOutside(part.bounds, sight.projectorFromModel, kLensSlack));
 }
 
-DrawnParts SceneBuffers::drawAll(const devices::GlProgram& program) const {
-  std::vector<const ScenePart*> all;
-  for (const auto& part : parts_) all.push_back(&part);
-  return drawParts(program, all);
-}
-
-DrawnParts SceneBuffers::drawParts(const devices::GlProgram& program,
-                                   const std::vector<const ScenePart*>& parts) const {
-  glBindVertexArray(vertexArray_.get());
-  DrawnParts drawn{.parts = parts.size()};
-  for (std::size_t i = 0; i < parts.size();) {
-    const int material = parts[i]->material;
-    setMaterial(program, materials_[static_cast<std::size_t>(material)]);
-    std::vector<GLsizei> counts;
-    std::vector<const void*> offsets;
-    for (; i < parts.size() && parts[i]->material == material; ++i) {
-      counts.push_back(static_cast<GLsizei>(parts[i]->count));
-      offsets.push_back(reinterpret_cast<const void*>(sizeof(std::uint32_t) * std::uintptr_t{parts[i]->first}));
-      drawn.triangles += parts[i]->count / 3;
+std::vector<SceneGroup> SceneBuffers::solidGroups(const SceneSight& sight) const {
+  std::vector<SceneGroup> groups;
+  for (auto part = parts_.begin(); part != parts_.end();) {
+    const int number = part->material;
+    std::array<SceneGroup, 2> own{SceneGroup{.material = number}, SceneGroup{.material = number, .across = true}};
+    const bool passed = !sight.solid && material(number).solidity == Solidity::kClear;
+    for (; part != parts_.end() && part->material == number; ++part) {
+      if (passed || !isSeen(*part, sight)) continue;
+      SceneGroup& group = own[isInside(part->bounds, sight.desktopFromModel) ? 0 : 1];
+      group.counts.push_back(static_cast<int>(part->count));
+      group.offsets.push_back(reinterpret_cast<const void*>(sizeof(std::uint32_t) * std::uintptr_t{part->first}));
+      ++group.drawn.parts;
+      group.drawn.triangles += part->count / 3;
     }
-    glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_INT, offsets.data(),
-                        static_cast<GLsizei>(counts.size()));
+    for (auto& group : own) {
+      if (!group.counts.empty()) groups.push_back(std::move(group));
+    }
   }
-  return drawn;
+  return groups;
 }
 
-void SceneBuffers::setMaterial(const devices::GlProgram& program, const Material& material) const {
-  program.set("materialColour", material.colour);
-  program.set("lit", material.lit ? 1 : 0);
-  program.set("hasPicture", material.picture >= 0 ? 1 : 0);
-  if (material.picture >= 0) glBindTextureUnit(0, pictures_[static_cast<std::size_t>(material.picture)].get());
+std::vector<SceneGroup> SceneBuffers::clearGroups(const SceneSight& sight, glm::vec3 eyeInModel) {
+  bool across = false;
+  bool seen = false;
+  for (const auto& part : parts_) {
+    if (material(part.material).solidity != Solidity::kClear) continue;
+    seen = seen || isSeen(part, sight);
+    across = across || !isInside(part.bounds, sight.desktopFromModel);
+  }
+  std::vector<SceneGroup> groups;
+  if (!seen) return groups;
+  for (const auto& run : clear_.fromTheBack(eyeInModel)) {
+    groups.push_back({.material = run.material,
+                      .across = across,
+                      .counts = {static_cast<int>(3 * run.count)},
+                      .offsets = {reinterpret_cast<const void*>(3 * sizeof(std::uint32_t) * run.first)},
+                      .drawn = {1, run.count}});
+  }
+  return groups;
+}
+
+void SceneBuffers::drawSolid(const SceneGroup& group) const {
+  glVertexArrayElementBuffer(vertexArray_.get(), indices_.get());
+  glBindVertexArray(vertexArray_.get());
+  glMultiDrawElements(GL_TRIANGLES, group.counts.data(), GL_UNSIGNED_INT, group.offsets.data(),
+                      static_cast<GLsizei>(group.counts.size()));
+}
+
+void SceneBuffers::drawClear(const SceneGroup& group) const {
+  glVertexArrayElementBuffer(vertexArray_.get(), clear_.buffer());
+  glBindVertexArray(vertexArray_.get());
+  glMultiDrawElements(GL_TRIANGLES, group.counts.data(), GL_UNSIGNED_INT, group.offsets.data(),
+                      static_cast<GLsizei>(group.counts.size()));
+}
+
+void SceneBuffers::setMaterial(const devices::GlProgram& program, int number) const {
+  const Material& own = material(number);
+  program.set("materialColour", own.colour);
+  program.set("emission", own.emission);
+  program.set("opacity", own.opacity);
+  program.set("cutoff", own.cutoff);
+  program.set("shine", own.shine);
+  program.set("shininess", own.shininess);
+  program.set("picture", 0);
+  if (own.picture >= 0) glBindTextureUnit(0, pictures_[static_cast<std::size_t>(own.picture)].get());
 }
 
 }  // namespace pixelflex::viewer

@@ -5,6 +5,7 @@
 
 #include "devices/display/gl_handle.h"
 #include "devices/display/gl_program.h"
+#include "viewer/model/clear_triangles.h"
 #include "viewer/model/scene.h"
 
 namespace pixelflex::viewer {
@@ -15,18 +16,40 @@ struct DrawnParts {
   std::size_t triangles = 0;
 };
 
+/// Through which matrices a scene is seen.
+struct SceneSight {
+  glm::dmat4 desktopFromModel{1};    // to clip coordinates
+  glm::dmat4 projectorFromModel{1};  // likewise
+  bool cull = true;                  // what lies outside of either is left out
+  bool solid = false;                // what lets see through is taken as solid
+};
+
+/// Triangles of one material that are drawn by one call.
+struct SceneGroup {
+  int material = 0;
+  bool across = false;  // they may reach over the desktop's borders
+  std::vector<int> counts;
+  std::vector<const void*> offsets;
+  DrawnParts drawn;
+};
+
 /// A scene in graphics memory, once for all projectors. Needs its context, or one that shares with it, current.
 class SceneBuffers {
  public:
   /// Keeps nothing of the scene's vertices and pictures in this process. Throws RendererError when they do not fit.
   explicit SceneBuffers(Scene scene);
 
-  /// Draws what may lie inside the clip volumes of both matrices; `program` is in use. shaders/model.* knows the
-  /// uniforms.
-  DrawnParts draw(const devices::GlProgram& program, const glm::dmat4& desktopFromModel,
-                  const glm::dmat4& projectorFromModel) const;
-  /// Everything, in one call for each material.
-  DrawnParts drawAll(const devices::GlProgram& program) const;
+  /// What may be seen of all that is solid; the order does not matter.
+  [[nodiscard]] std::vector<SceneGroup> solidGroups(const SceneSight& sight) const;
+  /// What lets see through, from the back to the front; none, when nothing of it may be seen.
+  [[nodiscard]] std::vector<SceneGroup> clearGroups(const SceneSight& sight, glm::vec3 eyeInModel);
+  void drawSolid(const SceneGroup& group) const;
+  void drawClear(const SceneGroup& group) const;
+
+  [[nodiscard]] const Material& material(int number) const { return materials_[static_cast<std::size_t>(number)]; }
+  /// Makes the material's uniforms of a program that is in use, and its picture the one of unit 0. shaders/model.*
+  /// knows them.
+  void setMaterial(const devices::GlProgram& program, int number) const;
 
   [[nodiscard]] const Bounds3& bounds() const { return bounds_; }
   [[nodiscard]] std::size_t triangles() const { return triangles_; }
@@ -34,14 +57,15 @@ class SceneBuffers {
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:
-  DrawnParts drawParts(const devices::GlProgram& program, const std::vector<const ScenePart*>& parts) const;
-  void setMaterial(const devices::GlProgram& program, const Material& material) const;
+  void makeVertexArray();
+  [[nodiscard]] bool isSeen(const ScenePart& part, const SceneSight& sight) const;
 
   std::vector<ScenePart> parts_;  // by material
   std::vector<Material> materials_;
   Bounds3 bounds_;
   std::size_t triangles_ = 0;
   std::size_t bytes_ = 0;
+  ClearTriangles clear_;
   devices::GlBuffer vertices_;
   devices::GlBuffer indices_;
   devices::GlVertexArray vertexArray_;

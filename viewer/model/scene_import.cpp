@@ -1,15 +1,19 @@
 #include "viewer/model/scene_import.h"
 
-#include <assimp/GltfMaterial.h>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <set>
 #include <span>
+#include <string>
 #include <utility>
 
+#include "viewer/model/model_folder.h"
+#include "viewer/model/scene_material.h"
 #include "viewer/model/scene_pictures.h"
 #include "viewer/model/triangle_soup.h"
 
@@ -38,16 +42,8 @@ bool isFinite(glm::vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-float linearFromSrgb(float code) {
-  return code <= 0.04045F ? code / 12.92F : std::pow((code + 0.055F) / 1.055F, 2.4F);
-}
-
 float srgbFromLinear(float light) {
   return light <= 0.0031308F ? 12.92F * light : 1.055F * std::pow(light, 1 / 2.4F) - 0.055F;
-}
-
-float held(float value) {
-  return value >= 0 ? std::min(value, 1.0F) : 0.0F;  // not a number becomes 0
 }
 
 /// Assimp's scene, one mesh of it after the other, as ours.
@@ -67,27 +63,9 @@ class Conversion {
   void takeMaterials() {
     ScenePictures pictures(from_, file_, scene_);
     for (const aiMaterial* source : std::span(from_.mMaterials, from_.mNumMaterials)) {
-      scene_.materials.push_back(materialOf(*source, pictures));
+      scene_.materials.push_back(materialOf(*source, pictures.of(*source), scene_.pictures, isGltf_));
     }
     if (scene_.materials.empty()) scene_.materials.emplace_back();
-  }
-
-  /// glTF says colours in light, everything older in codes of a screen.
-  [[nodiscard]] Material materialOf(const aiMaterial& source, ScenePictures& pictures) const {
-    Material material;
-    aiColor4D colour(0.8F, 0.8F, 0.8F, 1);
-    const bool base = isGltf_ && source.Get(AI_MATKEY_BASE_COLOR, colour) == AI_SUCCESS;
-    const bool given = base || source.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == AI_SUCCESS;
-    material.picture = pictures.of(source);
-    // A picture is often given with a colour that nobody looked at: black.
-    if (material.picture >= 0 && colour.r + colour.g + colour.b <= 0) colour = {1, 1, 1, 1};
-    for (int c = 0; c < 3; ++c) {
-      const float value = held(colour[static_cast<unsigned>(c)]);
-      material.colour[c] = isGltf_ || !given ? value : linearFromSrgb(value);
-    }
-    int shading = 0;
-    material.lit = source.Get(AI_MATKEY_SHADING_MODEL, shading) != AI_SUCCESS || shading != aiShadingMode_Unlit;
-    return material;
   }
 
   void walk() {
@@ -147,7 +125,8 @@ class Conversion {
   }
 
   [[nodiscard]] std::uint32_t codesOf(const aiColor4D& colour) const {
-    std::uint32_t codes = 0xFF000000U;
+    // Others than glTF have a fourth number there that means nothing as often as not.
+    std::uint32_t codes = static_cast<std::uint32_t>(std::lround(255 * (isGltf_ ? held(colour.a) : 1))) << 24U;
     for (unsigned c = 0; c < 3; ++c) {
       const float value = held(colour[c]);
       codes |= static_cast<std::uint32_t>(std::lround(255 * (isGltf_ ? srgbFromLinear(value) : value))) << (8 * c);
@@ -173,10 +152,32 @@ class Conversion {
   Dropped dropped_;
 };
 
+/// Nothing but files of the model's folder.
+class ModelFiles : public Assimp::DefaultIOSystem {
+ public:
+  explicit ModelFiles(std::filesystem::path model) : model_(std::move(model)) {}
+  bool Exists(const char* path) const override {
+    return isOfModel(model_, path) && Assimp::DefaultIOSystem::Exists(path);
+  }
+  Assimp::IOStream* Open(const char* path, const char* mode) override {
+    if (isOfModel(model_, path)) return Assimp::DefaultIOSystem::Open(path, mode);
+    missed_.insert(path);
+    return nullptr;
+  }
+  /// What the reader would have liked to open.
+  [[nodiscard]] const std::set<std::string>& missed() const { return missed_; }
+
+ private:
+  std::set<std::string> missed_;
+  std::filesystem::path model_;
+};
+
 }  // namespace
 
 Scene importScene(const std::filesystem::path& file) {
   Assimp::Importer importer;
+  auto* files = new ModelFiles(file);
+  importer.SetIOHandler(files);  // which the importer owns from here on
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_SortByPType);
   if (scene == nullptr || scene->mRootNode == nullptr) {
@@ -184,7 +185,11 @@ Scene importScene(const std::filesystem::path& file) {
         file.string() + ": cannot be read: " + importer.GetErrorString() +
         "; it is damaged, or of a format that is not known (OBJ, PLY, STL and glTF are among those that are)");
   }
-  return Conversion(*scene, file).run();
+  Scene converted = Conversion(*scene, file).run();
+  for (const auto& missed : files->missed()) {
+    converted.warnings.push_back(file.string() + ": names " + missed + ", which is no file of the model's folder");
+  }
+  return converted;
 }
 
 }  // namespace pixelflex::viewer

@@ -67,6 +67,7 @@ void sendScene(int descriptor, const Scene& scene) {
   writeValue(descriptor, std::uint64_t{scene.pictures.size()});
   for (const auto& picture : scene.pictures) {
     writeValue(descriptor, picture.size());
+    writeValue(descriptor, std::int32_t{picture.channels()});
     write(descriptor, std::as_bytes(picture.samples()));
   }
   writeValue(descriptor, std::uint64_t{scene.warnings.size()});
@@ -87,7 +88,8 @@ Scene receiveScene(int descriptor) {
   scene.materials = readAll<decltype(scene.materials)>(descriptor);
   const auto pictures = readValue<std::uint64_t>(descriptor);
   for (std::uint64_t i = 0; i < pictures; ++i) {
-    devices::Image8 picture(readValue<devices::Size>(descriptor), 3);
+    const auto size = readValue<devices::Size>(descriptor);
+    devices::Image8 picture(size, readValue<std::int32_t>(descriptor));
     read(descriptor, std::as_writable_bytes(picture.samples()));
     scene.pictures.push_back(std::move(picture));
   }
