@@ -18,9 +18,9 @@ pkg_check_modules(XRANDR REQUIRED IMPORTED_TARGET x11 xrandr)
 pixelflex_library(pixelflex_test_outputs HEADERS support/dummy_xorg.h SOURCES support/dummy_xorg.cpp
   PUBLIC pixelflex_test_support PRIVATE PkgConfig::XRANDR)
 pixelflex_test(gamma_keeper_test LABEL e2e SOURCES e2e/gamma_keeper_test.cpp LINK pixelflex_test_outputs pixelflex_display)
-pixelflex_test(model_cli_test LABEL e2e TIMEOUT 240 SOURCES e2e/model_cli_test.cpp e2e/model_windows_test.cpp
-  LINK pixelflex_test_support pixelflex_image pixelflex_store)
-add_dependencies(model_cli_test pixelflex-new pixelflex-model)
+pixelflex_test(model_cli_test LABEL e2e TIMEOUT 240 SOURCES e2e/model_cli_test.cpp e2e/model_outputs_test.cpp e2e/model_windows_test.cpp
+  LINK pixelflex_test_outputs pixelflex_image pixelflex_store)
+add_dependencies(model_cli_test pixelflex-calibrate pixelflex-new pixelflex-model pixelflex-simulate)
 add_executable(model_bench bench/model_bench.cpp)
 target_link_libraries(model_bench PRIVATE pixelflex_options pixelflex_model CLI11::CLI11 fmt::fmt)
 set_target_properties(model_bench PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)

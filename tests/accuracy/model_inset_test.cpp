@@ -66,7 +66,7 @@ class InsetWall {
 
   std::vector<devices::Image8> model(const ModelWallOptions& options) {
     devices::HeadlessContext context;
-    ModelWall model(context, plan_, folder_.path(), options);
+    ModelWall model(context, plan_, options);
     show(model);
     return {model.read(kWide), model.read(kInset)};
   }
@@ -74,7 +74,7 @@ class InsetWall {
   /// The model's picture on the desktop, shown as any desktop is.
   std::vector<devices::Image8> desktop() {
     devices::HeadlessContext context;
-    ModelWall model(context, plan_, folder_.path(), {.desktop = true});
+    ModelWall model(context, plan_, {.desktop = true});
     show(model);
     viewer::WallRenderer renderer(context);
     renderer.setPlans(plan_.outputsFor(plan_.desktop()));

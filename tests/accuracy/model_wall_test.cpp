@@ -74,7 +74,7 @@ class ShownModel {
 
   RegistrationFigures figures(const std::string& name, ModelWallOptions options) {
     options.model.measure = true;
-    ModelWall model(context_, plan_, folder_.path(), options);
+    ModelWall model(context_, plan_, options);
     const auto window = viewer::windowOf(plan_.display());
     model.setScene(sheet(window));
     viewer::ModelView view{.window = window, .viewer = viewer::centredViewer(window)};

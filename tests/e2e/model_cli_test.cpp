@@ -53,6 +53,34 @@ int brightest(const Image8& image) {
   return *std::ranges::max_element(image.samples());
 }
 
+/// What stands out of the dark.
+struct Silhouette {
+  double aspect = 0;  // of the box around it
+  double filled = 0;  // of that box
+  int brightest = 0;
+};
+
+Silhouette silhouetteOf(const Image8& image) {
+  int lit = 0;
+  int left = image.width();
+  int right = 0;
+  int top = image.height();
+  int bottom = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      if (image.at(x, y, 1) < 35) continue;
+      ++lit;
+      left = std::min(left, x);
+      right = std::max(right, x + 1);
+      top = std::min(top, y);
+      bottom = std::max(bottom, y + 1);
+    }
+  }
+  const double width = right - left;
+  const double height = bottom - top;
+  return {width / height, lit / (width * height), brightest(image)};
+}
+
 TEST_F(ModelCliTest, FlatScreensShowWhatOneCameraSees) {
   const auto shot = (folder_ / "shot").string();
   for (const std::string passes : {"1", "2"}) {
@@ -99,6 +127,33 @@ TEST_F(ModelCliTest, TheViewersPlaceAndCutsChangeThePicture) {
   EXPECT_GT(unlike, 3);
   const Image8 anaglyph = take({"--view", "20,20", "--stereo", "anaglyph", "--eye-distance", "80"});
   EXPECT_FALSE(anaglyph == plain);
+}
+
+TEST_F(ModelCliTest, TheRoomIsWhatTheAudienceOfASimulatedWallSees) {
+  const auto simulated = (folder_ / "simulated").string();
+  const auto shot = (folder_ / "shot").string();
+  ASSERT_EQ(runProgram("new", {simulated, "--rig", kMiniRig}).status, 0);
+  const Output calibrated = runProgram("calibrate", {simulated});
+  ASSERT_EQ(calibrated.status, 0) << calibrated.text;
+  for (const std::string passes : {"1", "2"}) {
+    const Output shown = runProgram("model", {simulated, (folder_ / "solid.obj").string(), "--headless", "--screenshot",
+                                              shot, "--room", "--passes", passes, "--view", "30,20"});
+    ASSERT_EQ(shown.status, 0) << shown.text;
+    EXPECT_GT(brightest(picture("shot/p1.png")), 100);
+    const Output composed =
+        runProgram("simulate", {simulated, "--frames", shot, "--audience", (folder_ / "audience.png").string()});
+    ASSERT_EQ(composed.status, 0) << composed.text;
+    // They may show more or less of the wall around the model.
+    const Silhouette room = silhouetteOf(picture("shot/room.png"));
+    const Silhouette audience = silhouetteOf(picture("audience.png"));
+    EXPECT_NEAR(room.aspect, audience.aspect, 0.02 * audience.aspect) << passes;
+    EXPECT_NEAR(room.filled, audience.filled, 0.02) << passes;
+    EXPECT_NEAR(room.brightest, audience.brightest, 12) << passes;
+  }
+  // A wall that is not simulated has no room.
+  const Output none = show({"--headless", "--screenshot", shot, "--room"});
+  EXPECT_EQ(none.status, 1);
+  EXPECT_THAT(none.text, HasSubstr("rig: FILE"));
 }
 
 TEST_F(ModelCliTest, BadFilesAndWrongUseAreToldInWords) {

@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "calib/store/store.h"
 #include "tests/e2e/programs.h"
@@ -58,6 +60,14 @@ class ModelWindowsTest : public ::testing::Test {
   }
   [[nodiscard]] static int litPixels(const Image8& picture) {
     return static_cast<int>(std::ranges::count_if(picture.samples(), [](int code) { return code > 40; }));
+  }
+  /// In the 300 columns from there on.
+  [[nodiscard]] static int litIn(const Image8& picture, int left) {
+    int lit = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = left; x < left + 300; ++x) lit += picture.at(x, y, 0) > 40 ? 1 : 0;
+    }
+    return lit;
   }
   [[nodiscard]] bool changesFrom(const Image8& before) const {
     return comesTrue([&] { return !(screens() == before); });
@@ -118,6 +128,38 @@ TEST_F(ModelWindowsTest, NothingIsDrawnWhileNothingChanges) {
   const long begin = cpu();
   std::this_thread::sleep_for(std::chrono::seconds(2));
   EXPECT_LE(cpu() - begin, 4) << "hundredths of a second";
+}
+
+TEST_F(ModelWindowsTest, ANewCalibrationIsShownAtOnce) {
+  start();
+  Image8 before = screens();
+  ASSERT_TRUE(comesTrue([&] {
+    // Both windows show their part, which stays.
+    const Image8 now = screens();
+    const bool rested = now == std::exchange(before, now);
+    return rested && litIn(now, 0) > 300 && litIn(now, 300) > 300;
+  }));
+  auto calibration = calib::loadCalibration(wall());
+  ASSERT_EQ(calibration.projectors.size(), 2U);
+  std::swap(calibration.projectors[0].samples, calibration.projectors[1].samples);
+  std::swap(calibration.projectors[0].model, calibration.projectors[1].model);
+  calib::saveCalibration(wall(), calibration);
+  // Each screen shows what the other one did; dither makes a code of difference.
+  EXPECT_TRUE(comesTrue([&] {
+    const Image8 now = screens();
+    int different = 0;
+    for (int y = 0; y < now.height(); ++y) {
+      for (int x = 0; x < now.width(); ++x) {
+        different += std::abs(now.at(x, y, 0) - before.at((x + 300) % 600, y, 0)) > 3 ? 1 : 0;
+      }
+    }
+    return different < 100;
+  })) << log();
+  EXPECT_THAT(log(), HasSubstr("a new calibration is shown"));
+  // One that cannot be shown is told of, and the picture stays.
+  writeText(folder_ / "wall" / "calibration.yaml", "format: nonsense\n");
+  EXPECT_TRUE(comesTrue([&] { return log().find("the new calibration is not shown") != std::string::npos; }));
+  EXPECT_GT(litPixels(screens()), 1000);
 }
 
 TEST_F(ModelWindowsTest, ASignalEndsIt) {

@@ -64,7 +64,7 @@ TEST_P(StereoTest, EachEyeHasItsOwnPicture) {
   EXPECT_EQ(eyesOfProjectors(plan), (std::vector<Eye>{Eye::kLeft, Eye::kRight}));
   const WallPlan right("/nowhere", wall_.wall, wall_.calibration, {wall_.calibration.projectors[1].name});
   EXPECT_EQ(eyesOfProjectors(right), (std::vector<Eye>{Eye::kRight}));
-  ModelWall model(context_, plan, "/nowhere", {.passes = GetParam(), .model = {.measure = true}});
+  ModelWall model(context_, plan, {.passes = GetParam(), .model = {.measure = true}});
   const auto window = windowOf(plan.display());
   for (const float depth : {0.5F, -0.5F}) {
     model.setScene(target(depth));

@@ -126,6 +126,18 @@ TEST_F(ModelSceneTest, MaterialsSayWhatLetsSeeThroughAndWhatShines) {
   EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
+TEST_F(ModelSceneTest, AFileIsFoundFromWhereOneStands) {
+  file("m.mtl", "newmtl m\nKd 1 0 0\n");
+  file("here.obj", "mtllib m.mtl\nusemtl m\n" + kCube);
+  const auto stood = std::filesystem::current_path();
+  std::filesystem::current_path(folder_.path());
+  const std::array<std::filesystem::path, 2> files{"here.obj", "./here.obj"};
+  const Scene scene = loadScene(files);
+  std::filesystem::current_path(stood);
+  EXPECT_EQ(scene.triangles(), 24U);
+  EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
 TEST_F(ModelSceneTest, AMissingPictureIsNamed) {
   file("lost.mtl", "newmtl wood\nKd 0.5 0.5 0.5\nmap_Kd lost.png\n");
   const Scene scene = load("lost.obj", "mtllib lost.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood\nf 1 2 3\n");

@@ -197,21 +197,10 @@ std::vector<Eye> eyesOfProjectors(const WallPlan& wall) {
   return eyes;
 }
 
-OutputPlan lightPlanOf(const WallPlan& wall, const std::filesystem::path& folder, std::size_t index) {
-  const auto& projector = *wall.projectors().at(index);
-  ProjectorLight light = readLight(folder, projector);
-  if (projector.flatAt) light.inverseResponse = {};
-  return {
-      .name = projector.name,
-      .resolution = projector.resolution,
-      .desktop = wall.desktop(),
-      .colour = light.colour,
-      .alpha = std::move(light.alpha),
-      .gain = std::move(light.gain),
-      .black = std::move(light.black),
-      .largestBlack = light.largestBlack,
-      .inverseResponse = std::move(light.inverseResponse),
-      .transfer = wall.wall().transfer == calib::Transfer::kSrgb ? DesktopTransfer::kSrgb : DesktopTransfer::kLinear};
+OutputPlan lightPlanOf(const WallPlan& wall, std::size_t index) {
+  OutputPlan plan = wall.lightFor(index, wall.desktop());
+  if (wall.projectors().at(index)->flatAt) plan.inverseResponse = {};
+  return plan;
 }
 
 WallWindow windowOf(const calib::Display& display) {

@@ -34,7 +34,7 @@ inline constexpr double kLargestOnePassError = 0.5;
 [[nodiscard]] std::vector<Eye> eyesOfProjectors(const WallPlan& wall);
 
 /// The light of one projector, without the mesh of the desktop. An exact screen keeps its codes as they are.
-[[nodiscard]] OutputPlan lightPlanOf(const WallPlan& wall, const std::filesystem::path& folder, std::size_t projector);
+[[nodiscard]] OutputPlan lightPlanOf(const WallPlan& wall, std::size_t projector);
 
 /// The display as a window.
 [[nodiscard]] WallWindow windowOf(const calib::Display& display);

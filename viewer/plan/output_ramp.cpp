@@ -23,8 +23,9 @@ devices::GammaRamp rampOf(const std::array<std::vector<float>, 3>& inverseRespon
   devices::GammaRamp ramp;
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t i = 0; i < entries; ++i) {
-      const double light = lightOf(static_cast<double>(i) / static_cast<double>(entries - 1));
-      const double code = std::clamp(codeFor(light, inverseResponse[c]), 0.0, 1.0);
+      const double shown = static_cast<double>(i) / static_cast<double>(entries - 1);
+      const double code =
+          inverseResponse[c].empty() ? shown : std::clamp(codeFor(lightOf(shown), inverseResponse[c]), 0.0, 1.0);
       ramp[c].push_back(static_cast<std::uint16_t>(std::lround(65535 * code)));
     }
   }

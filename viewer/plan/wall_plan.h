@@ -38,12 +38,13 @@ class WallPlan {
   /// show their part one to one unless it is scaled. Uses two threads.
   [[nodiscard]] std::vector<OutputPlan> outputsFor(devices::Size desktop) const;
 
+  /// The plan of one of projectors() without a mesh.
+  [[nodiscard]] OutputPlan lightFor(std::size_t index, devices::Size desktop) const;
   /// The plan of one of projectors(), not a flat screen, for a picture of just this part of the wall.
   [[nodiscard]] OutputPlan outputFor(std::size_t index, const calib::Display& part) const;
 
  private:
   [[nodiscard]] OutputPlan outputFor(std::size_t index, devices::Size desktop) const;
-  [[nodiscard]] OutputPlan lightFor(std::size_t index, devices::Size desktop) const;
 
   calib::Wall wall_;
   calib::Calibration calibration_;

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -21,6 +22,8 @@ namespace {
 const std::map<std::string, Features> kFeatures{{"all", Features::kAll}, {"corners", Features::kCorners}};
 const std::map<std::string, StereoKind> kStereo{
     {"off", StereoKind::kOff}, {"side-by-side", StereoKind::kSideBySide}, {"anaglyph", StereoKind::kAnaglyph}};
+
+const std::map<std::string, LookUp> kLookUps{{"auto", LookUp::kAuto}, {"ramp", LookUp::kRamp}, {"pass", LookUp::kPass}};
 
 /// Options that are lists of numbers.
 struct Texts {
@@ -45,6 +48,11 @@ void addDrawing(CLI::App& app, ModelCommand& command, Texts& texts) {
                  "vertex: one pass makes up for the lens at each corner of a triangle, right where triangles are small")
       ->check(CLI::IsMember({"none", "vertex"}))
       ->capture_default_str();
+  app.add_option("--lut", command.lookUp,
+                 "where windows of one pass look up a projector's codes: in its output's own gamma ramp (RandR), which "
+                 "is given back at the end, or in a last pass; else in the ramp where there is one")
+      ->transform(CLI::CheckedTransformer(kLookUps))
+      ->option_text("auto|ramp|pass");
   app.add_option("--samples", command.draw.model.samples, "of each pixel, to smooth edges; 1: they are not")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
@@ -98,12 +106,12 @@ void take(const Texts& texts, ModelCommand& command) {
 }
 
 int show(const ModelCommand& command) {
-  const WallPlan wall(command.wall, calib::loadWall(command.wall), calib::loadCalibration(command.wall),
-                      command.projectors);
+  const auto wall = std::make_shared<const WallPlan>(command.wall, calib::loadWall(command.wall),
+                                                     calib::loadCalibration(command.wall), command.projectors);
   // First, while this process has no threads and no graphics that its readers would inherit.
   Scene scene = loadScene(command.files);
   for (const auto& warning : scene.warnings) fmt::print(stderr, "pixelflex-model: warning: {}\n", warning);
-  return command.screenshot ? runModelHeadless(command, wall, std::move(scene))
+  return command.screenshot ? runModelHeadless(command, *wall, std::move(scene))
                             : runModelWindows(command, wall, std::move(scene));
 }
 
@@ -128,6 +136,8 @@ int main(int argc, char** argv) {
                  "turn the model once in so many steps; --screenshot's pictures of step N go into DIR/N")
       ->check(CLI::Range(1, 999));
   app.add_flag("--preview", command.preview, "a window of the whole desktop, also beside the wall");
+  app.add_flag("--room", command.room,
+               "what the audience of a simulated wall sees: a window, or DIR/room.png beside --screenshot's pictures");
   app.add_flag("--track", command.track,
                "the viewer's place comes from standard input, \"X Y Z\" a line, as for --eye; windows follow it");
   app.add_option("--projectors", command.projectors, "only these projectors")->delimiter(',');
@@ -138,6 +148,9 @@ int main(int argc, char** argv) {
     pixelflex::viewer::take(texts, command);
     if ((command.headless || command.turntable > 0) && !command.screenshot) {
       throw std::invalid_argument("--headless and --turntable need --screenshot DIR");
+    }
+    if (command.lookUp == pixelflex::viewer::LookUp::kRamp && (command.draw.passes != 1 || command.screenshot)) {
+      throw std::invalid_argument("--lut ramp is for windows of one pass");
     }
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;

@@ -8,8 +8,16 @@
 
 #include "devices/display/gl_context.h"
 #include "devices/image/png_file.h"
+#include "viewer/programs/model_outputs.h"
+#include "viewer/programs/model_room.h"
 
 namespace pixelflex::viewer {
+namespace {
+
+constexpr int kRoomWidth = 1600;  // pixels
+
+}  // namespace
+
 void writeModelPictures(const std::filesystem::path& folder, ModelWall& model, StereoPicture* stereo) {
   std::filesystem::create_directories(folder);
   for (std::size_t i = 0; i < model.projectorCount(); ++i) {
@@ -44,12 +52,14 @@ int runModelHeadless(const ModelCommand& command, const WallPlan& wall, Scene sc
   auto options = command.draw;
   options.desktop = true;
   options.bothEyes = command.stereo != StereoKind::kOff;
-  ModelWall model(context, wall, command.wall, options);
+  ModelWall model(context, wall, options);
   const auto triangles = scene.triangles();
   model.setScene(std::move(scene));
   printFits(command, wall, model);
   std::optional<StereoPicture> stereo;
   if (options.bothEyes) stereo.emplace(context, wall.desktop());
+  std::optional<ModelRoom> room;
+  if (command.room) room.emplace(context, wall, command.wall, roomOf(command, wall));
   ModelView view = viewOf(command, windowOf(wall.display()));
   const std::filesystem::path folder = *command.screenshot;
   for (int frame = 0; frame < std::max(command.turntable, 1); ++frame) {
@@ -57,8 +67,11 @@ int runModelHeadless(const ModelCommand& command, const WallPlan& wall, Scene sc
     model.setView(view);
     model.draw();
     if (stereo) stereo->draw(model.desktopTexture(0), model.desktopTexture(1), command.stereo);
-    writeModelPictures(command.turntable > 0 ? folder / fmt::format("{:03}", frame) : folder, model,
-                       stereo ? &*stereo : nullptr);
+    const auto into = command.turntable > 0 ? folder / fmt::format("{:03}", frame) : folder;
+    writeModelPictures(into, model, stereo ? &*stereo : nullptr);
+    if (!room) continue;
+    room->draw(model, room->sizeFor(kRoomWidth));
+    devices::writePng(into / "room.png", room->read());
   }
   fmt::print("{} triangles on {} projectors in {}\n", triangles, model.projectorCount(), *command.screenshot);
   return 0;

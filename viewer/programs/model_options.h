@@ -13,6 +13,10 @@
 
 namespace pixelflex::viewer {
 
+/// Where one pass looks up the codes of a projector's device: in its output's own table, where there is one, or at the
+/// end of the drawing. kRamp insists on the first.
+enum class LookUp { kAuto, kRamp, kPass };
+
 /// The command line of `pixelflex model`.
 struct ModelCommand {
   std::string wall;
@@ -22,12 +26,14 @@ struct ModelCommand {
   int turntable = 0;                      // frames of one turn; 0: none
   std::vector<std::string> projectors;    // empty: all
   ModelWallOptions draw;
+  LookUp lookUp = LookUp::kAuto;
   StereoKind stereo = StereoKind::kOff;
   ModelPose pose;
   std::optional<glm::dvec3> eye;  // window's frame; none: centred
   std::optional<double> eyeDistance;
   std::optional<glm::dvec4> cut;
   bool preview = false;  // a window of the whole desktop beside the wall
+  bool room = false;     // what the audience of a simulated wall sees, as a picture or in a window
   bool track = false;    // the viewer's place comes from standard input
   bool wireframe = false;
   bool axes = false;

@@ -6,57 +6,32 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
-#include <memory>
-#include <numeric>
 #include <optional>
+#include <utility>
 
 #include "devices/display/event_loop.h"
-#include "devices/display/monitors.h"
 #include "devices/display/window.h"
 #include "viewer/model/stereo_picture.h"
 #include "viewer/plan/pointer_map.h"
 #include "viewer/programs/model_headless.h"
 #include "viewer/programs/model_navigation.h"
+#include "viewer/programs/model_outputs.h"
+#include "viewer/programs/model_room.h"
 #include "viewer/programs/model_tracker.h"
 #include "viewer/programs/quit_signal.h"
-#include "viewer/programs/room_of_rig.h"
+#include "viewer/programs/wall_reloader.h"
 
 namespace pixelflex::viewer {
 namespace {
 
-const calib::Output& outputOf(const WallPlan& wall, const std::string& projector) {
-  const auto& all = wall.wall().projectors;
-  const auto found = std::ranges::find(all, projector, &calib::ProjectorConfig::name);
-  if (found == all.end()) throw PlanError("wall.yaml has no projector " + projector + " any more: calibrate again");
-  return found->output;
-}
-
-/// All windows of a process are on one display: the one that its outputs name, else $DISPLAY.
-std::optional<std::string> displayOf(const WallPlan& wall) {
-  std::optional<std::string> display;
-  for (const auto* projector : wall.projectors()) {
-    const auto& output = outputOf(wall, projector->name);
-    if (output.kind != calib::OutputKind::kDisplay) continue;
-    if (display && *display != output.display) {
-      throw PlanError(
-          "outputs on several displays: show their projectors by processes of their own, with --projectors");
-    }
-    display = output.display;
-  }
-  return display;
-}
-
-bool isWindow(calib::OutputKind kind) {
-  return kind == calib::OutputKind::kMonitor || kind == calib::OutputKind::kDisplay;
-}
-
-ModelWallOptions drawingOf(const ModelCommand& command, const WallPlan& wall) {
+ModelWallOptions drawingOf(const ModelCommand& command, const WallPlan& wall, std::vector<std::string> inHardware) {
   auto options = command.draw;
   const bool anywhere = std::ranges::any_of(wall.projectors(), [&](const auto* projector) {
     return outputOf(wall, projector->name).kind != calib::OutputKind::kNone;
   });
   options.desktop = command.preview || command.stereo != StereoKind::kOff || !anywhere;
   options.bothEyes = command.stereo != StereoKind::kOff;
+  options.inHardware = std::move(inHardware);
   return options;
 }
 
@@ -69,21 +44,29 @@ struct Shown {
 
 class ModelWindows {
  public:
-  ModelWindows(const ModelCommand& command, const WallPlan& wall, Scene scene)
+  /// `keeper`: none when no output's table is used.
+  ModelWindows(const ModelCommand& command, std::shared_ptr<const WallPlan> wall, Scene scene,
+               devices::GammaKeeper* keeper)
       : command_(command),
-        wall_(wall),
-        loop_(displayOf(wall)),
+        wall_(std::move(wall)),
+        keeper_(keeper),
+        loop_(displayOf(*wall_)),
         hidden_(loop_, {.title = "PixelFlex", .size = {16, 16}, .visible = false}),
-        model_(hidden_, wall, command.wall, drawingOf(command, wall)),
-        view_(viewOf(command, windowOf(wall.display()))),
+        screens_(screensOf(*wall_, loop_)),
+        options_(drawingOf(command, *wall_, lookedUpInHardware(command, *wall_, screens_, keeper))),
+        model_(hidden_, *wall_, options_),
+        view_(viewOf(command, windowOf(wall_->display()))),
         navigation_(command.pose, command.wireframe, command.axes, command.cut,
-                    std::min(wall.desktop().width, wall.desktop().height)),
-        pointers_(wall, wall.desktop()) {
+                    std::min(wall_->desktop().width, wall_->desktop().height)),
+        pointers_(*wall_, wall_->desktop()),
+        reloader_({"pixelflex-model", command.wall, command.projectors, {}, false}, *wall_,
+                  [] { devices::EventLoop::wake(); }) {
     model_.setScene(std::move(scene));
-    printFits(command, wall, model_);
-    for (std::size_t i = 0; i < wall.projectors().size(); ++i) openProjector(i);
+    printFits(command, *wall_, model_);
+    for (const auto& screen : screens_) openProjector(screen);
     openRoom();
-    if (drawingOf(command, wall).desktop) openPreview();
+    if (options_.desktop) openPreview();
+    setTables(*wall_, screens_, options_.inHardware, keeper_);
     if (command.track) loop_.addTask(&tracker_, tracker_.descriptor(), [this] { follow(); });
     // What the loop reads is drawn at once.
     fmt::print("showing {} windows; Escape ends\n", windows_.size());
@@ -95,6 +78,7 @@ class ModelWindows {
 
   int run(const QuitSignal& signal) {
     while (!quit_ && !navigation_.quit() && !signal.raised()) {
+      reload();
       if (navigation_.apply(view_) || moved_) model_.setView(view_);
       moved_ = false;
       if (model_.draw()) presentAll();
@@ -109,6 +93,30 @@ class ModelWindows {
     const auto eye = tracker_.read();
     if (!eye) return;
     view_.viewer.eye = *eye;
+    tracked_ = true;
+    moved_ = true;
+  }
+
+  /// Everything that depends on the calibration; windows stay.
+  void reload() {
+    const auto fresh = reloader_.take();
+    if (!fresh) return;
+    try {
+      model_.setWall(*fresh->wall);
+    } catch (const std::exception& error) {
+      fmt::print(stderr, "pixelflex-model: the new calibration is not shown: {}\n", error.what());
+      return;
+    }
+    const auto old = std::exchange(wall_, fresh->wall);
+    const auto viewer = view_.viewer;
+    view_ = viewOf(command_, windowOf(wall_->display()));
+    if (tracked_) view_.viewer = viewer;
+    pointers_ = PointerMap(*wall_, wall_->desktop());
+    if (stereo_ && wall_->desktop() != old->desktop()) stereo_.emplace(hidden_, wall_->desktop());
+    setTables(*wall_, screens_, options_.inHardware, keeper_);
+    printFits(command_, *wall_, model_);
+    fmt::print("a new calibration is shown\n");
+    std::fflush(stdout);
     moved_ = true;
   }
 
@@ -128,17 +136,14 @@ class ModelWindows {
     windows_[number].window->setHandlers(std::move(handlers));
   }
 
-  void openProjector(std::size_t index) {
-    const auto& projector = *wall_.projectors()[index];
-    const auto& output = outputOf(wall_, projector.name);
-    if (!isWindow(output.kind)) return;
-    const glm::ivec2 at =
-        output.kind == calib::OutputKind::kMonitor ? devices::findMonitor(loop_, output.monitor).position : output.at;
-    auto window = std::make_unique<devices::Window>(
-        loop_,
-        devices::WindowRequest{
-            .title = "PixelFlex " + projector.name, .size = projector.resolution, .at = at, .borderless = true},
-        &hidden_);
+  void openProjector(const ProjectorScreen& screen) {
+    const auto index = screen.projector;
+    auto window = std::make_unique<devices::Window>(loop_,
+                                                    devices::WindowRequest{.title = "PixelFlex " + model_.name(index),
+                                                                           .size = model_.resolution(index),
+                                                                           .at = screen.at,
+                                                                           .borderless = true},
+                                                    &hidden_);
     add({std::move(window),
          [this, index](devices::Window& to) { to.present(model_.texture(index), model_.resolution(index)); },
          [this, index](const devices::Window&, glm::dvec2 p) -> std::optional<glm::dvec2> {
@@ -148,16 +153,16 @@ class ModelWindows {
   }
 
   void openPreview() {
-    const auto [width, height] = wall_.desktop();
+    const auto [width, height] = wall_->desktop();
     constexpr int kWidth = 1200;
     const int rows = std::clamp(static_cast<int>(std::int64_t{kWidth} * height / width), 100, 1000);
     auto window = std::make_unique<devices::Window>(
         loop_, devices::WindowRequest{.title = "PixelFlex: the model", .size = {kWidth, rows}}, &hidden_);
-    if (command_.stereo != StereoKind::kOff) stereo_.emplace(hidden_, wall_.desktop());
-    add({std::move(window), [this](devices::Window& to) { to.present(desktopTexture(), wall_.desktop()); },
+    if (command_.stereo != StereoKind::kOff) stereo_.emplace(hidden_, wall_->desktop());
+    add({std::move(window), [this](devices::Window& to) { to.present(desktopTexture(), wall_->desktop()); },
          [this](const devices::Window& from, glm::dvec2 p) -> std::optional<glm::dvec2> {
            const glm::dvec2 size(from.size().width, from.size().height);
-           return p / glm::max(size, 1.0) * glm::dvec2(wall_.desktop().width, wall_.desktop().height);
+           return p / glm::max(size, 1.0) * glm::dvec2(wall_->desktop().width, wall_->desktop().height);
          }});
   }
 
@@ -167,39 +172,23 @@ class ModelWindows {
   }
 
   void openRoom() {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < wall_.projectors().size(); ++i) {
-      if (outputOf(wall_, wall_.projectors()[i]->name).kind != calib::OutputKind::kSim) continue;
-      simulated_.push_back(i);
-      names.push_back(wall_.projectors()[i]->name);
-    }
-    if (names.empty()) return;
-    if (!wall_.wall().rig) throw PlanError("output: sim needs rig: FILE in wall.yaml");
-    const RoomOfRig rig = roomOfRig(std::filesystem::path(command_.wall) / *wall_.wall().rig, names);
-    framing_.topLeft = rig.topLeft;
-    framing_.bottomRight = rig.bottomRight;
-    const glm::dvec2 extent = rig.bottomRight - rig.topLeft;
+    const auto shining = roomOf(command_, *wall_);
+    if (shining.empty()) return;
+    room_.emplace(hidden_, *wall_, command_.wall, shining);
     constexpr int kWidth = 1400;
-    const int rows = std::clamp(static_cast<int>(kWidth * extent.y / extent.x), 200, 1400);
     auto window = std::make_unique<devices::Window>(
-        loop_, devices::WindowRequest{.title = "PixelFlex: the room", .size = {kWidth, rows}}, &hidden_);
-    room_.emplace(hidden_, rig.projectors);
+        loop_, devices::WindowRequest{.title = "PixelFlex: the room", .size = room_->sizeFor(kWidth)}, &hidden_);
     add({std::move(window), [this](devices::Window& to) { presentRoom(to); },
          [this](const devices::Window&, glm::dvec2 p) -> std::optional<glm::dvec2> {
-           if (framing_.picture.area() == 0) return std::nullopt;
-           return glm::dvec2(pointers_.fromWall(framing_.wallFromPicture(p)));
+           if (room_->framing().picture.area() == 0) return std::nullopt;
+           return glm::dvec2(pointers_.fromWall(room_->framing().wallFromPicture(p)));
          }});
   }
 
   void presentRoom(devices::Window& window) {
-    framing_.picture = window.size();
-    if (framing_.picture.area() == 0) return;  // minimised
-    std::vector<devices::GlName> frames;
-    for (const std::size_t index : simulated_) frames.push_back(model_.texture(index));
-    std::vector<std::size_t> all(simulated_.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    room_->draw(frames, all, framing_);
-    window.present(room_->texture(), framing_.picture);
+    room_->draw(model_, window.size());
+    if (window.size().area() == 0) return;  // minimised
+    window.present(room_->texture(), window.size());
   }
 
   void presentAll() {
@@ -214,32 +203,36 @@ class ModelWindows {
   }
 
   const ModelCommand& command_;
-  const WallPlan& wall_;
+  std::shared_ptr<const WallPlan> wall_;
+  devices::GammaKeeper* keeper_;
   devices::EventLoop loop_;
   devices::Window hidden_;
+  std::vector<ProjectorScreen> screens_;
+  ModelWallOptions options_;
   ModelWall model_;
   ModelView view_;
   ModelNavigation navigation_;
   PointerMap pointers_;
   ModelTracker tracker_{STDIN_FILENO};
   std::optional<StereoPicture> stereo_;
-  std::optional<RoomView> room_;
-  RoomFraming framing_;
-  std::vector<std::size_t> simulated_;
+  std::optional<ModelRoom> room_;
   std::vector<Shown> windows_;
   bool moved_ = false;
+  bool tracked_ = false;
   bool quit_ = false;
+  WallReloader reloader_;  // last: its thread ends first
 };
 
 }  // namespace
 
-int runModelWindows(const ModelCommand& command, const WallPlan& wall, Scene scene) {
+int runModelWindows(const ModelCommand& command, std::shared_ptr<const WallPlan> wall, Scene scene) {
+  auto keeper = keeperFor(command, *wall);
   // The signal's thread must exist before any other, but what it wakes comes later.
   std::atomic<bool> open = false;
   const QuitSignal signal([&open] {
     if (open) devices::EventLoop::wake();
   });
-  ModelWindows windows(command, wall, std::move(scene));
+  ModelWindows windows(command, std::move(wall), std::move(scene), keeper ? &*keeper : nullptr);
   open = true;
   const int status = windows.run(signal);
   open = false;

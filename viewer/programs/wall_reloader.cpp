@@ -28,14 +28,14 @@ bool tellsOfCalibration(std::string_view name) {
 
 }  // namespace
 
-WallReloader::WallReloader(const ViewOptions& options, const WallPlan& shown, std::function<void()> wake)
-    : options_(options), screens_(screensOf(shown)), wake_(std::move(wake)), desktop_(shown.desktop()) {
+WallReloader::WallReloader(WatchedWall watched, const WallPlan& shown, std::function<void()> wake)
+    : watched_(std::move(watched)), screens_(screensOf(shown)), wake_(std::move(wake)), desktop_(shown.desktop()) {
   watch_ = ::inotify_init1(IN_CLOEXEC | IN_NONBLOCK);
   stopped_ = ::eventfd(0, EFD_CLOEXEC);
   constexpr auto kEvents = IN_CLOSE_WRITE | IN_MOVED_TO;
-  if (watch_ < 0 || stopped_ < 0 || ::inotify_add_watch(watch_, options.wall.c_str(), kEvents) < 0) {
-    fmt::print(stderr, "pixelflex-view: warning: {} cannot be watched: a new calibration is not noticed\n",
-               options.wall);
+  if (watch_ < 0 || stopped_ < 0 || ::inotify_add_watch(watch_, watched_.folder.c_str(), kEvents) < 0) {
+    fmt::print(stderr, "{}: warning: {} cannot be watched: a new calibration is not noticed\n", watched_.program,
+               watched_.folder);
     return;
   }
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
@@ -94,22 +94,22 @@ bool WallReloader::waitForChange(int timeout) const {
 
 void WallReloader::reload() try {
   auto wall =
-      std::make_shared<const WallPlan>(options_.wall, calib::loadWall(options_.wall),
-                                       calib::loadCalibration(options_.wall), options_.projectors, options_.fit);
+      std::make_shared<const WallPlan>(watched_.folder, calib::loadWall(watched_.folder),
+                                       calib::loadCalibration(watched_.folder), watched_.projectors, watched_.fit);
   if (screensOf(*wall) != screens_) throw std::runtime_error("it has other projectors: start the viewer again");
   devices::Size desktop;
   {
     const std::lock_guard lock(mutex_);
     desktop = desktop_;
   }
-  auto plans = wall->outputsFor(desktop);
+  auto plans = watched_.planned ? wall->outputsFor(desktop) : std::vector<OutputPlan>();
   {
     const std::lock_guard lock(mutex_);
     ready_ = ReloadedWall{std::move(wall), desktop, std::move(plans)};
   }
   wake_();
 } catch (const std::exception& error) {
-  fmt::print(stderr, "pixelflex-view: the new calibration is not shown: {}\n", error.what());
+  fmt::print(stderr, "{}: the new calibration is not shown: {}\n", watched_.program, error.what());
 }
 
 }  // namespace pixelflex::viewer

@@ -6,13 +6,22 @@
 #include <mutex>
 #include <optional>
 #include <stop_token>
+#include <string>
 #include <thread>
 #include <vector>
 
 #include "viewer/plan/wall_plan.h"
-#include "viewer/programs/view_options.h"
 
 namespace pixelflex::viewer {
+
+/// Which wall is watched, and for what.
+struct WatchedWall {
+  std::string program;  // that tells of it
+  std::string folder;
+  std::vector<std::string> projectors;  // empty: all
+  FitOptions fit;
+  bool planned = true;  // false: without plans for a desktop
+};
 
 /// A calibration that has taken another's place while the wall is shown, ready to be drawn.
 struct ReloadedWall {
@@ -25,9 +34,9 @@ struct ReloadedWall {
 /// read, or has other projectors than the one that is shown, is left alone with a message on stderr.
 class WallReloader {
  public:
-  /// `wake` is called from the thread when there is a new wall; all references must outlive this. `shown` is read in
+  /// `wake` is called from the thread when there is a new wall. `shown` is read in
   /// the constructor only. A folder that cannot be watched is none.
-  WallReloader(const ViewOptions& options, const WallPlan& shown, std::function<void()> wake);
+  WallReloader(WatchedWall watched, const WallPlan& shown, std::function<void()> wake);
   ~WallReloader();
   WallReloader(const WallReloader&) = delete;
   WallReloader& operator=(const WallReloader&) = delete;
@@ -48,7 +57,7 @@ class WallReloader {
   [[nodiscard]] bool waitForChange(int timeout) const;
   void reload();
 
-  const ViewOptions& options_;
+  const WatchedWall watched_;
   const std::vector<Screen> screens_;
   const std::function<void()> wake_;
   int watch_ = -1;

@@ -72,7 +72,7 @@ WallView::WallView(const ViewOptions& options, const WallPlan& wall, ExpectedPla
       belt_(wake, renderer_.uploadMemory()),
       wake_(wake),
       source_(openSource()),
-      reloader_(options, wall, wake) {
+      reloader_({"pixelflex-view", options.wall, options.projectors, options.fit}, wall, wake) {
   renderer_.showDamage(options.showDamage);
   // What a screenshot shows is the desktop, as a screenshot taken on the server does.
   if (options.screenshot) renderer_.showCursor(false);
