@@ -21,6 +21,7 @@
 #include "calib/procedure/procedure.h"
 #include "calib/procedure/summary.h"
 #include "calib/programs/calibrate_table.h"
+#include "calib/programs/command_line.h"
 #include "calib/programs/console_progress.h"
 #include "calib/programs/nudge_argument.h"
 #include "calib/programs/photograph_source.h"
@@ -178,18 +179,10 @@ void calibrate(const Arguments& arguments) {
   runProcedure(folder, wall, arguments);
 }
 
-}  // namespace
-}  // namespace pixelflex::calib
-
-int main(int argc, char** argv) {
-  pixelflex::calib::Arguments arguments;
-  CLI::App app{
-      "Measures the wall: camera, surface, projectors, mesh, blend, gamma. Without STEP: every step that is stale.",
-      "pixelflex-calibrate"};
-  app.set_version_flag("--version", PIXELFLEX_VERSION);
+void defineOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("WALL", arguments.wall, "the wall's folder")->required();
   app.add_option("STEP", arguments.steps, "only these: camera surface projectors mesh blend gamma")
-      ->check(CLI::IsMember(pixelflex::calib::stepNames()));
+      ->check(CLI::IsMember(stepNames()));
   auto* patterns =
       app.add_option("--patterns", arguments.patterns, "only write what each projector must show into this folder");
   app.add_option("--photos", arguments.photos,
@@ -213,17 +206,22 @@ int main(int argc, char** argv) {
   app.add_option("--clear-nudge", arguments.clearNudges, "take the correction by hand away again")->delimiter(',');
   app.add_flag("--all", arguments.all, "every step, stale or not");
   app.add_flag("--progress", arguments.progress, "tell how far it is in lines, for programs: progress STEP DONE TOTAL");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
-    pixelflex::calib::calibrate(arguments);
-    return 0;
-  } catch (const std::exception& error) {
-    std::fflush(stdout);
-    fmt::print(stderr, "pixelflex-calibrate: {}\n", error.what());
-    return 1;
-  }
+}
+
+}  // namespace
+}  // namespace pixelflex::calib
+
+int main(int argc, char** argv) {
+  using namespace pixelflex;
+  CLI::App app(
+      "Measures the wall: camera, surface, projectors, mesh, blend, gamma. Without STEP: every step that is stale.",
+      "pixelflex calibrate");
+  calib::Arguments arguments;
+  calib::defineOptions(app, arguments);
+  return calib::runCommand(
+      app, [&] { app.parse(argc, argv); },
+      [&] {
+        calib::calibrate(arguments);
+        return 0;
+      });
 }

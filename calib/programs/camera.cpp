@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "calib/programs/command_line.h"
 #include "calib/simulate/simulated_wall.h"
 #include "calib/store/store.h"
 #include "devices/camera/cameras.h"
@@ -19,8 +18,6 @@ namespace pixelflex::calib {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kWrongUsage = 2;
 
 struct Arguments {
   std::string action;
@@ -79,7 +76,6 @@ void defineOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("FROM", arguments.from, "shot: a wall's folder, or a source such as aravis:first or v4l2:/dev/video0");
   app.add_option("-o,--output", arguments.file, "shot: the PNG to write")->capture_default_str();
   app.add_option("--exposure", arguments.exposure, "shot: exposure time in seconds")->check(CLI::Range(1e-6, 3600.0));
-  app.set_version_flag("--version", "pixelflex-camera " PIXELFLEX_VERSION);
   app.footer(
       "list tells of each camera what to write behind \"source:\" in wall.yaml, its model, and its resolution where\n"
       "that is known without opening it. Automatic exposure, gain, white balance and focus are switched off.");
@@ -93,20 +89,10 @@ int main(int argc, char** argv) {
   CLI::App app("Lists the cameras there are, and takes a photograph with one.", "pixelflex camera");
   calib::Arguments arguments;
   calib::defineOptions(app, arguments);
-  try {
+  const auto parse = [&] {
     app.parse(argc, argv);
     if (arguments.action == "shot" && arguments.from.empty()) throw CLI::RequiredError("FROM");
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "pixelflex-camera: {}; see pixelflex camera --help\n", error.what());
-    return calib::kWrongUsage;
-  }
-  try {
-    return arguments.action == "list" ? calib::list() : calib::shot(arguments);
-  } catch (const std::exception& error) {
-    std::fflush(stdout);
-    fmt::print(stderr, "pixelflex-camera: {}\n", error.what());
-    return 1;
-  }
+  };
+  return calib::runCommand(app, parse,
+                           [&] { return arguments.action == "list" ? calib::list() : calib::shot(arguments); });
 }

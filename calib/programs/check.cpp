@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstddef>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "calib/photometric/response_curve.h"
+#include "calib/programs/command_line.h"
 #include "calib/simulate/rig.h"
 #include "calib/store/readings_file.h"
 #include "calib/store/store.h"
@@ -18,8 +18,6 @@
 namespace {
 
 using pixelflex::calib::Problem;
-
-constexpr int kWrongUsage = 2;
 
 /// Readings that can be read may still be none of a projector: falling, clipped, below the meter's threshold.
 void checkResponses(const std::filesystem::path& folder, const pixelflex::calib::Wall& wall,
@@ -83,21 +81,10 @@ int check(const std::string& folder) {
 
 }  // namespace
 
-int main(int argc, char** argv) try {
+int main(int argc, char** argv) {
   CLI::App app("Lists everything wrong with the files of a wall, each with file and line.", "pixelflex check");
   std::string folder;
   app.add_option("WALL", folder, "The wall's folder")->required();
-  app.set_version_flag("--version", "pixelflex-check " PIXELFLEX_VERSION);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    std::cerr << "pixelflex-check: " << error.what() << "; see pixelflex check --help\n";
-    return kWrongUsage;
-  }
-  return check(folder);
-} catch (const std::exception& error) {
-  std::cerr << "pixelflex-check: " << error.what() << '\n';
-  return 1;
+  return pixelflex::calib::runCommand(
+      app, [&] { app.parse(argc, argv); }, [&] { return check(folder); });
 }

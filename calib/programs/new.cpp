@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdlib>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -11,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/programs/command_line.h"
 #include "calib/programs/new_wall.h"
 #include "calib/simulate/rig.h"
 #include "calib/store/yaml_reader.h"
@@ -20,8 +20,6 @@
 namespace {
 
 namespace calib = pixelflex::calib;
-
-constexpr int kWrongUsage = 2;
 
 struct Options {
   std::string wall;
@@ -53,6 +51,12 @@ std::vector<calib::NewFile> filesOf(const Options& options) {
   return calib::filesOfMonitors(foundMonitors());
 }
 
+void checkGrid(const std::string& flat) try {
+  (void)calib::parseFlatGrid(flat);
+} catch (const std::invalid_argument& error) {
+  throw std::invalid_argument(std::string("--flat ") + error.what());
+}
+
 void make(const Options& options) {
   const auto files = filesOf(options);
   calib::makeWallFolder(options.wall, files);
@@ -68,29 +72,19 @@ void make(const Options& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) try {
+int main(int argc, char** argv) {
   CLI::App app("Makes the folder of a wall with a commented wall.yaml: from the monitors found, or with an option.",
                "pixelflex new");
   Options options;
   app.add_option("WALL", options.wall, "The folder to make")->required();
   auto* rig = app.add_option("--rig", options.rig, "A simulated wall with the optics of this file");
   app.add_option("--flat", options.flat, "Screens that show the desktop one to one: [COLSxROWS:]WxH")->excludes(rig);
-  app.set_version_flag("--version", "pixelflex-new " PIXELFLEX_VERSION);
-  try {
+  const auto parse = [&] {
     app.parse(argc, argv);
-    if (options.flat) (void)calib::parseFlatGrid(*options.flat);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    std::cerr << "pixelflex-new: " << error.what() << "; see pixelflex new --help\n";
-    return kWrongUsage;
-  } catch (const std::invalid_argument& error) {
-    std::cerr << "pixelflex-new: --flat " << error.what() << '\n';
-    return kWrongUsage;
-  }
-  make(options);
-  return 0;
-} catch (const std::exception& error) {
-  std::cerr << "pixelflex-new: " << error.what() << '\n';
-  return 1;
+    if (options.flat) checkGrid(*options.flat);
+  };
+  return calib::runCommand(app, parse, [&] {
+    make(options);
+    return 0;
+  });
 }

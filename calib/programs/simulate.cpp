@@ -6,8 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -15,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/programs/command_line.h"
 #include "calib/programs/serve_devices.h"
 #include "calib/simulate/hand_aimed.h"
 #include "calib/simulate/simulated_wall.h"
@@ -29,7 +28,6 @@ using pixelflex::calib::WallRect;
 using pixelflex::devices::Image8;
 using pixelflex::devices::Size;
 
-constexpr int kWrongUsage = 2;
 constexpr int kDefaultWidth = 2400;
 constexpr int kLargestPicture = 16384;
 
@@ -181,25 +179,9 @@ void defineOptions(CLI::App& app, Request& request) {
   app.add_option("--margin", request.margin, "Wall shown around the display rectangle, per cent of its larger side")
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
-  app.set_version_flag("--version", "pixelflex-simulate " PIXELFLEX_VERSION);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) try {
-  CLI::App app(
-      "Composes projector frames into what the audience of a simulated wall sees, or serves its devices, simulated.",
-      "pixelflex simulate");
-  Request request;
-  defineOptions(app, request);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    std::cerr << "pixelflex-simulate: " << error.what() << "; see pixelflex simulate --help\n";
-    return kWrongUsage;
-  }
+int run(const Request& request) {
   if (request.serves) {
     pixelflex::calib::serveDevices({request.wall, request.faults, request.faster},
                                    [](const std::string& line) { std::cout << line << std::endl; });
@@ -207,7 +189,16 @@ int main(int argc, char** argv) try {
     simulate(request);
   }
   return 0;
-} catch (const std::exception& error) {
-  std::cerr << "pixelflex-simulate: " << error.what() << '\n';
-  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Composes projector frames into what the audience of a simulated wall sees, or serves its devices, simulated.",
+      "pixelflex simulate");
+  Request request;
+  defineOptions(app, request);
+  return pixelflex::calib::runCommand(
+      app, [&] { app.parse(argc, argv); }, [&] { return run(request); });
 }

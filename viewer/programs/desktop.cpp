@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "calib/programs/command_line.h"
 #include "calib/store/store.h"
 #include "viewer/programs/desktop_command.h"
 #include "viewer/programs/desktop_household.h"
@@ -122,23 +122,15 @@ DesktopOptions parse(CLI::App& app, const std::vector<std::string>& arguments) {
 }  // namespace pixelflex::viewer
 
 int main(int argc, char** argv) {
-  CLI::App app{
-      "Runs an X desktop of the wall's own size and shows it on the wall: pixelflex desktop WALL [OPTIONS] "
-      "[-- COMMAND…].",
-      "pixelflex-desktop"};
-  app.set_version_flag("--version", PIXELFLEX_VERSION);
-  pixelflex::viewer::DesktopOptions options;
-  try {
-    options = pixelflex::viewer::parse(app, {argv + std::min(argc, 1), argv + argc});
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
-    if (options.command.empty()) options.command = pixelflex::viewer::defaultDesktopCommand();
-    return pixelflex::viewer::runDesktop(options);
-  } catch (const std::exception& error) {
-    std::fflush(stdout);
-    fmt::print(stderr, "pixelflex-desktop: {}\n", error.what());
-    return 1;
-  }
+  using namespace pixelflex;
+  CLI::App app(
+      "Runs an X desktop of the wall's own size and shows it on the wall: pixelflex desktop WALL [OPTIONS] [-- "
+      "COMMAND…].",
+      "pixelflex desktop");
+  viewer::DesktopOptions options;
+  const auto parse = [&] { options = viewer::parse(app, {argv + std::min(argc, 1), argv + argc}); };
+  return calib::runCommand(app, parse, [&] {
+    if (options.command.empty()) options.command = viewer::defaultDesktopCommand();
+    return viewer::runDesktop(options);
+  });
 }

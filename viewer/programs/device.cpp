@@ -6,13 +6,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <optional>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
 #include <vector>
 
+#include "calib/programs/command_line.h"
 #include "calib/store/store.h"
 #include "calib/store/wall_devices.h"
 #include "devices/transport/line_loop.h"
@@ -24,8 +24,6 @@
 
 namespace pixelflex::viewer {
 namespace {
-
-constexpr int kWrongUsage = 2;
 
 struct DeviceOptions {
   std::string wall;
@@ -92,7 +90,6 @@ void defineOptions(CLI::App& app, DeviceOptions& options) {
   app.add_option("SETTING", options.steps, "What to read (SETTING), set (=VALUE), step (+=N, -=N) or do");
   app.add_flag("--json", options.json, "Print JSON");
   app.add_flag("--quiet", options.quiet, "Do not tell how far slow settings are");
-  app.set_version_flag("--version", "pixelflex-device " PIXELFLEX_VERSION);
   app.footer(
       "Mirrors:    pan tilt (degrees), pan_counts tilt_counts, pan_speed tilt_speed, pan_acceleration\n"
       "            tilt_acceleration, limits (on, off); home, reset, halt\n"
@@ -115,22 +112,10 @@ int main(int argc, char** argv) {
   CLI::App app("Lists, reads and sets the settings of a wall's projectors and mirrors.", "pixelflex device");
   viewer::DeviceOptions options;
   viewer::defineOptions(app, options);
-  try {
+  std::vector<viewer::DeviceJob> jobs;
+  const auto parse = [&] {
     app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "pixelflex-device: {}; see pixelflex device --help\n", error.what());
-    return viewer::kWrongUsage;
-  }
-  try {
-    const auto devices = viewer::devicesIn(options.wall);
-    return viewer::runDevice(options, viewer::planDevices(devices, options.names, options.steps));
-  } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "pixelflex-device: {}\n", error.what());
-    return viewer::kWrongUsage;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "pixelflex-device: {}\n", error.what());
-    return 1;
-  }
+    jobs = viewer::planDevices(viewer::devicesIn(options.wall), options.names, options.steps);
+  };
+  return calib::runCommand(app, parse, [&] { return viewer::runDevice(options, jobs); });
 }

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -17,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/programs/command_line.h"
 #include "calib/store/preset.h"
 #include "calib/store/store.h"
 #include "calib/store/wall_devices.h"
@@ -27,8 +27,6 @@
 
 namespace pixelflex::viewer {
 namespace {
-
-constexpr int kWrongUsage = 2;
 
 struct PresetOptions {
   std::string wall;
@@ -186,7 +184,6 @@ void defineOptions(CLI::App& app, PresetOptions& options) {
                  "restore: as --verify, and projectors that are off by more than so many of their pixels are measured "
                  "again")
       ->check(CLI::Range(0.0, 1e4));
-  app.set_version_flag("--version", "pixelflex-preset " PIXELFLEX_VERSION);
   app.footer(
       "A preset holds the settings of all devices and the calibration that belongs to them. Restoring changes only\n"
       "what differs, at all devices at once: mute, power, move, lens, colour, input, calibration, unmute. Ctrl+C "
@@ -202,19 +199,9 @@ int main(int argc, char** argv) {
   CLI::App app("Saves and restores the wall's devices and calibration under names.", "pixelflex preset");
   viewer::PresetOptions options;
   viewer::defineOptions(app, options);
-  try {
+  const auto parse = [&] {
     app.parse(argc, argv);
     if (options.action != "list" && options.name.empty()) throw CLI::RequiredError("NAME");
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "pixelflex-preset: {}; see pixelflex preset --help\n", error.what());
-    return viewer::kWrongUsage;
-  }
-  try {
-    return viewer::runPreset(options);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "pixelflex-preset: {}\n", error.what());
-    return 1;
-  }
+  };
+  return calib::runCommand(app, parse, [&] { return viewer::runPreset(options); });
 }

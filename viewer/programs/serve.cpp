@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "calib/programs/command_line.h"
 #include "calib/store/store.h"
 #include "calib/store/wall_devices.h"
 #include "viewer/control/motion_watchdog.h"
@@ -22,7 +22,6 @@
 namespace pixelflex::viewer {
 namespace {
 
-constexpr int kWrongUsage = 2;
 constexpr std::chrono::milliseconds kLogEvery{250};
 
 std::vector<calib::WallDevice> mirrorsOf(const std::string& wall) {
@@ -61,7 +60,6 @@ int serve(const std::string& wall, const RemoteControlOptions& options) {
 void defineOptions(CLI::App& app, std::string& wall, ServeOptions& options) {
   app.add_option("WALL", wall, "The wall's folder")->required();
   defineServeOptions(app, options);
-  app.set_version_flag("--version", "pixelflex-serve " PIXELFLEX_VERSION);
   app.footer(
       "PORT alone is reached from this machine only; 0.0.0.0:PORT or [::]:PORT from everywhere, which needs a token.\n"
       "Neither is encrypted: use them in a network that you trust, or behind a server that adds TLS.\n"
@@ -89,22 +87,11 @@ int main(int argc, char** argv) {
   std::string wall;
   viewer::ServeOptions options;
   viewer::defineOptions(app, wall, options);
-  try {
+  viewer::RemoteControlOptions remote;
+  const auto parse = [&] {
     app.parse(argc, argv);
     if (!options.isWanted()) throw CLI::RequiredError("--http");
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "pixelflex-serve: {}; see pixelflex serve --help\n", error.what());
-    return viewer::kWrongUsage;
-  }
-  try {
-    return viewer::serve(wall, viewer::remoteControlOptions(options, wall));
-  } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "pixelflex-serve: {}\n", error.what());
-    return viewer::kWrongUsage;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "pixelflex-serve: {}\n", error.what());
-    return 1;
-  }
+    remote = viewer::remoteControlOptions(options, wall);
+  };
+  return calib::runCommand(app, parse, [&] { return viewer::serve(wall, remote); });
 }
