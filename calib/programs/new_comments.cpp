@@ -33,7 +33,8 @@ constexpr std::array kRemarks = {
         "  # fiducials.png.\n"},
     Remark{"camera:",
            "\n# Where photographs of the wall come from: photos (files taken with any camera), v4l2:/dev/video0,\n"
-           "# aravis:NAME, sim, or none (a wall that needs no camera). Optional: `transfer: linear` or `srgb` says how "
+           "# aravis:NAME, gphoto2:first, sim, or none (a wall that needs no camera). Optional: `transfer: linear` or "
+           "`srgb` says how "
            "they\n"
            "# encode light; without it they count as linear unless gamma: camera measures it.\n"},
     Remark{"  checkerboard:", "  # Inner corners (columns, rows) and the side of a square in millimetres.\n"},

@@ -5,6 +5,7 @@
 
 #include "devices/camera/aravis_camera.h"
 #include "devices/camera/camera_error.h"
+#include "devices/camera/still_camera.h"
 #include "devices/camera/v4l2_camera.h"
 
 namespace pixelflex::devices {
@@ -16,7 +17,8 @@ struct Kind {
   std::unique_ptr<Camera> (*open)(const std::string& name);
 };
 constexpr std::array kKinds = {Kind{"v4l2:", listV4l2Cameras, openV4l2Camera},
-                               Kind{"aravis:", listAravisCameras, openAravisCamera}};
+                               Kind{"aravis:", listAravisCameras, openAravisCamera},
+                               Kind{"gphoto2:", listStillCameras, openStillCamera}};
 
 }  // namespace
 
