@@ -81,6 +81,9 @@ TEST(HouseConfig, TheSessionsFilesSayWhatIsStarted) {
         "Environment=\"PIXELFLEX_ARGUMENTS=desktop %h/wall\"", "WantedBy=graphical-session.target"}) {
     EXPECT_THAT(unit, Contains(line));
   }
+  const auto serve = linesOf(configFolder() / "session/pixelflex-serve.service.in");
+  EXPECT_THAT(serve, Contains("ExecStart=@prefix@/bin/pixelflex serve $PIXELFLEX_SERVE_ARGUMENTS"));
+  EXPECT_THAT(serve, Contains("Environment=\"PIXELFLEX_SERVE_ARGUMENTS=%h/wall --http 8080\""));
   const auto entry = linesOf(configFolder() / "session/pixelflex.desktop.in");
   ASSERT_FALSE(entry.empty());
   EXPECT_EQ(entry.front(), "[Desktop Entry]");

@@ -133,6 +133,9 @@ TEST_F(RemoteHttpTest, SwitchesAndMutesTheWholeWall) {
   EXPECT_EQ(ask("GET", "/state").json["muted"], true);
   EXPECT_EQ(done(ask("POST", "/mute", R"({"on": false})"))["state"], "done");
   EXPECT_EQ(ask("GET", "/state").json["muted"], false);
+  for (const auto* control : {"p1.control", "p2.control"}) {
+    changeProjector(control, [](auto& state) { state.coolDown = std::chrono::hours(1); });
+  }
   const Answer off = ask("POST", "/power", R"({"on": false})");
   EXPECT_EQ(off.json["command"], "pixelflex device " + folder() + " p1.control,p2.control power=off");
   EXPECT_EQ(ask("GET", "/state").json["power"], "cooling") << "also before a projector says so";

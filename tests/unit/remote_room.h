@@ -22,6 +22,23 @@ class RemoteRoomTest : public DeviceRoomTest {
  protected:
   using Json = nlohmann::json;
 
+  /// As makeRoom(), with projectors that speak PJLink and tell more.
+  void makePjlinkRoom(int projectors) {
+    makeRoom(projectors, 20);
+    calib::Wall wall = calib::loadWall(folder());
+    for (auto& projector : wall.projectors) {
+      const std::string name = projector.name + ".lamp";
+      host_.add(name, devices::makePjlinkSimulator({}));
+      projector.control = {"pjlink", host_.address(name), {}};
+    }
+    saveWall(folder(), wall);
+  }
+  void changeProjector(const std::string& control, const std::function<void(devices::ProjectorState&)>& change) {
+    host_.with(control, [&](devices::SimulatedDevice& device, auto) {
+      change(dynamic_cast<devices::ProjectorSimulator&>(device).state());
+    });
+  }
+
   void serve(const viewer::RemoteControlOptions& options, std::chrono::milliseconds pollEvery = kPollEvery) {
     console_.emplace(folder(), viewer::WallConsoleOptions{.pollEvery = pollEvery, .programs = folder_.path()});
     control_ = std::make_unique<viewer::RemoteControl>(*console_, options);

@@ -1,4 +1,4 @@
-// pixelflex serve WALL --http [ADDRESS:]PORT: a wall's remote control.
+// pixelflex serve WALL --http [ADDRESS:]PORT --pjlink [ADDRESS:]PORT: a wall's remote controls.
 
 #include <fmt/core.h>
 
@@ -61,7 +61,8 @@ void defineOptions(CLI::App& app, std::string& wall, ServeOptions& options) {
   app.add_option("WALL", wall, "The wall's folder")->required();
   defineServeOptions(app, options);
   app.footer(
-      "PORT alone is reached from this machine only; 0.0.0.0:PORT or [::]:PORT from everywhere, which needs a token.\n"
+      "PORT alone is reached from this machine only; 0.0.0.0:PORT or [::]:PORT from everywhere, which needs a token\n"
+      "or a password.\n"
       "Neither is encrypted: use them in a network that you trust, or behind a server that adds TLS.\n"
       "GET    /                       a page: power, mute, presets, stop\n"
       "GET    /state                  devices, presets, jobs, calibration; /devices/NAME, /presets, /jobs/N,\n"
@@ -75,7 +76,11 @@ void defineOptions(CLI::App& app, std::string& wall, ServeOptions& options) {
       "POST   /halt                   stops every mirror; DELETE /jobs/N cancels a long job\n"
       "Orders are answered with their job at once (202); GET /jobs/N says what came of it. They need\n"
       "Content-Type: application/json. Example:\n"
-      "  curl -H 'Content-Type: application/json' -d '{\"on\": true}' http://localhost:8080/power");
+      "  curl -H 'Content-Type: application/json' -d '{\"on\": true}' http://localhost:8080/power\n"
+      "PJLink (port 4352 for room controllers): power, picture mute, freeze, errors, lamps, resolution of the whole "
+      "wall.\n"
+      "Its inputs are 51, the desktop, and the presets by the alphabet: 41 to 49, 4A to 4Z in class 2. At 0.0.0.0 it\n"
+      "is found by search.");
 }
 
 }  // namespace
@@ -90,7 +95,7 @@ int main(int argc, char** argv) {
   viewer::RemoteControlOptions remote;
   const auto parse = [&] {
     app.parse(argc, argv);
-    if (!options.isWanted()) throw CLI::RequiredError("--http");
+    if (!options.isWanted()) throw CLI::RequiredError("--http or --pjlink");
     remote = viewer::remoteControlOptions(options, wall);
   };
   return calib::runCommand(app, parse, [&] { return viewer::serve(wall, remote); });

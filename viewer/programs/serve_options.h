@@ -15,9 +15,12 @@ namespace pixelflex::viewer {
 struct ServeOptions {
   std::string http;
   std::string tokenFile;
+  std::string pjlink;
+  std::string pjlinkPasswordFile;
+  std::vector<std::string> pjlinkListeners;
   std::string name;
   /// Something was asked for: without a word nobody listens.
-  [[nodiscard]] bool isWanted() const { return !http.empty(); }
+  [[nodiscard]] bool isWanted() const { return !http.empty() || !pjlink.empty(); }
 };
 
 void defineServeOptions(CLI::App& app, ServeOptions& options);

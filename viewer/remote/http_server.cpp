@@ -3,13 +3,11 @@
 #include <array>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <utility>
 
 #include "devices/transport/line_loop.h"
@@ -25,8 +23,6 @@ using asio::ip::tcp;
 using boost::system::error_code;
 
 constexpr std::chrono::seconds kLinger{2};
-// When the process is out of descriptors.
-constexpr std::chrono::milliseconds kAcceptPause{200};
 
 using WireRequest = http::request<http::string_body>;
 using WireReply = http::response<http::string_body>;
@@ -63,6 +59,10 @@ WireReply wireOf(const HttpReply& reply, bool keepsAlive) {
   return wire;
 }
 
+tcp protocolOf(const ListenAddress& at) {
+  return asio::ip::make_address(at.host).is_v6() ? tcp::v6() : tcp::v4();
+}
+
 /// What to say to somebody whose request cannot be read; nothing when nobody is there any more.
 std::optional<HttpReply> complaint(const error_code& error) {
   const auto reply = [](int status, const char* why) {
@@ -83,18 +83,15 @@ std::optional<HttpReply> complaint(const error_code& error) {
 struct HttpServer::Core : std::enable_shared_from_this<HttpServer::Core> {
   class Connection;
 
-  Core(asio::io_context& context, const HttpServerOptions& serverOptions, Answer answerer)
-      : options(serverOptions), answer(std::move(answerer)), acceptor(context), pause(context) {}
+  Core(asio::io_context& ioContext, const HttpServerOptions& serverOptions, Answer answerer)
+      : context(ioContext), options(serverOptions), answer(std::move(answerer)) {}
 
-  void open();
-  void accept();
-  void acceptLater();
+  void take(int descriptor);
   void close();
 
+  asio::io_context& context;
   HttpServerOptions options;
   Answer answer;
-  tcp::acceptor acceptor;
-  asio::steady_timer pause;
   std::set<Connection*> connections;
 };
 
@@ -167,52 +164,23 @@ class HttpServer::Core::Connection : public std::enable_shared_from_this<Connect
   std::array<char, 4096> rest_{};
 };
 
-void HttpServer::Core::open() {
-  try {
-    const tcp::endpoint place(asio::ip::make_address(options.at.host), options.at.port);
-    acceptor.open(place.protocol());
-    acceptor.set_option(tcp::acceptor::reuse_address(true));
-    acceptor.bind(place);
-    acceptor.listen();
-  } catch (const boost::system::system_error& error) {
-    throw std::runtime_error("nothing can listen at " + options.at.text() + " for HTTP: " + error.code().message());
-  }
-  accept();
-}
-
-void HttpServer::Core::accept() {
-  acceptor.async_accept([core = shared_from_this()](const error_code& error, tcp::socket socket) {
-    if (!core->answer) return;
-    if (error) return core->acceptLater();
-    const bool hasRoom = core->connections.size() < core->options.connections;
-    if (hasRoom) std::make_shared<Connection>(core, std::move(socket))->read();
-    core->accept();
-  });
-}
-
-void HttpServer::Core::acceptLater() {
-  pause.expires_after(kAcceptPause);
-  pause.async_wait([core = shared_from_this()](const error_code&) {
-    if (core->answer) core->accept();
-  });
+void HttpServer::Core::take(int descriptor) {
+  tcp::socket socket(context);
+  socket.assign(protocolOf(options.at), descriptor);
+  if (connections.size() >= options.connections) return;
+  std::make_shared<Connection>(shared_from_this(), std::move(socket))->read();
 }
 
 void HttpServer::Core::close() {
   answer = nullptr;
-  error_code ignored;
-  acceptor.close(ignored);
-  pause.cancel(ignored);
   const auto open = connections;
   for (Connection* connection : open) connection->close();
 }
 
 HttpServer::HttpServer(devices::LineLoop& loop, const HttpServerOptions& options, Answer answer)
-    : loop_(loop), core_(std::make_shared<Core>(loop.context(), options, std::move(answer))), address_(options.at) {
-  loop_.invoke([this] {
-    core_->open();
-    address_.port = core_->acceptor.local_endpoint().port();
-  });
-}
+    : loop_(loop),
+      core_(std::make_shared<Core>(loop.context(), options, std::move(answer))),
+      listener_(loop, options.at, "HTTP", [core = core_](int descriptor) { core->take(descriptor); }) {}
 
 HttpServer::~HttpServer() {
   loop_.invoke([this] { core_->close(); });

@@ -7,6 +7,7 @@
 
 #include "viewer/remote/http_message.h"
 #include "viewer/remote/listen_address.h"
+#include "viewer/remote/tcp_listener.h"
 
 namespace pixelflex::devices {
 class LineLoop;
@@ -36,13 +37,13 @@ class HttpServer {
   HttpServer& operator=(const HttpServer&) = delete;
 
   /// With the port that a 0 became.
-  [[nodiscard]] const ListenAddress& address() const { return address_; }
+  [[nodiscard]] const ListenAddress& address() const { return listener_.address(); }
 
  private:
   struct Core;
   devices::LineLoop& loop_;
   std::shared_ptr<Core> core_;
-  ListenAddress address_;
+  TcpListener listener_;
 };
 
 }  // namespace pixelflex::viewer

@@ -65,7 +65,7 @@ std::string_view nameOf(Power power) {
   return kNames.at(static_cast<std::size_t>(power));
 }
 
-WallSummary WallRemote::summary() const {
+WallSummary WallRemote::summary() {
   const auto wall = snapshot();
   const PowerCount count(*wall);
   WallSummary summary;
@@ -97,10 +97,11 @@ std::optional<bool> WallRemote::allHave(const std::string& setting, const WallSn
   return able == 0 ? std::nullopt : std::optional(on == able);
 }
 
-std::string WallRemote::presetInPlace(const WallSnapshot& wall) const {
+const std::string& WallRemote::presetInPlace(const WallSnapshot& wall) {
   const ConsoleJob* job = wall.find(restored_.job);
   const bool failed = job != nullptr && !job->running && !job->error.empty();
-  return failed ? restored_.before : restored_.name;
+  if (failed) restored_ = {.name = restored_.before};
+  return restored_.name;
 }
 
 int WallRemote::setAll(const std::string& setting, bool on) {

@@ -34,7 +34,7 @@ class WallRemote {
 
   [[nodiscard]] WallConsole& console() { return console_; }
   [[nodiscard]] std::shared_ptr<const WallSnapshot> snapshot() const { return console_.snapshot(); }
-  [[nodiscard]] WallSummary summary() const;
+  [[nodiscard]] WallSummary summary();
 
   // Each returns the number of its job, and throws RemoteError.
 
@@ -45,6 +45,8 @@ class WallRemote {
   int halt() { return console_.stopAll(); }
   int savePreset(const std::string& name);
   int restorePreset(const std::string& name, bool verify);
+  /// The wall counts as set by hand again; nothing is done.
+  void leavePreset() { restored_ = {}; }
   int planPreset(const std::string& name);
   int deletePreset(const std::string& name);
   int calibrate(const std::vector<std::string>& arguments);
@@ -63,7 +65,7 @@ class WallRemote {
   };
   [[nodiscard]] std::optional<bool> ordered(const std::string& setting, const WallSnapshot& wall) const;
   [[nodiscard]] std::optional<bool> allHave(const std::string& setting, const WallSnapshot& wall) const;
-  [[nodiscard]] std::string presetInPlace(const WallSnapshot& wall) const;
+  [[nodiscard]] const std::string& presetInPlace(const WallSnapshot& wall);
   void requirePreset(const std::string& name) const;
 
   WallConsole& console_;
