@@ -1,6 +1,15 @@
 # 3D models: files, drawing, accuracy on simulated walls, the program.
 pixelflex_test(model_scene_test LABEL unit SOURCES unit/model_scene_test.cpp unit/model_bad_files_test.cpp unit/model_files.h support/temporary_folder.cpp
   LINK pixelflex_scene)
+# What a model's file may hold, by clang++ (preset fuzz): ./model_fuzz CORPUS -max_total_time=60
+add_library(model_entry STATIC fuzz/model_entry.cpp support/temporary_folder.cpp)
+target_link_libraries(model_entry PRIVATE pixelflex_options PUBLIC pixelflex_scene)
+pixelflex_test(model_corpus_test LABEL unit SOURCES unit/model_corpus_test.cpp LINK model_entry)
+if(PIXELFLEX_FUZZ)
+  add_executable(model_fuzz fuzz/model_fuzz.cpp)
+  target_link_libraries(model_fuzz PRIVATE pixelflex_options model_entry -fsanitize=fuzzer)
+  add_dependencies(fuzzers model_fuzz)
+endif()
 pixelflex_test(model_depth_test LABEL gl SOURCES gl/model_depth_test.cpp LINK pixelflex_model)
 pixelflex_test(model_light_test LABEL gl SOURCES gl/model_light_test.cpp gl/model_material_test.cpp LINK pixelflex_model)
 pixelflex_test(model_stereo_test LABEL gl
