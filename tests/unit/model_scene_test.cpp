@@ -174,7 +174,7 @@ TEST_F(ModelSceneTest, AGltfBringsItsPicturesAndNodes) {
       R"("bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":24},)"
       R"({"buffer":0,"byteOffset":60,"byteLength":)" +
       std::to_string(png.size()) + R"(}],"buffers":[{"byteLength":)" + std::to_string(60 + png.size()) + "}]}";
-  const Scene scene = load("one.glb", glbOf(json, binary + png));
+  const Scene scene = load("one.GLB", glbOf(json, binary + png));
   EXPECT_THAT(scene.warnings, IsEmpty());
   EXPECT_EQ(scene.bounds().low, glm::vec3(5, 0, 0));
   EXPECT_EQ(scene.bounds().high, glm::vec3(7, 2, 0));

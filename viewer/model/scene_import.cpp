@@ -4,8 +4,10 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cmath>
 #include <set>
 #include <span>
@@ -46,11 +48,18 @@ float srgbFromLinear(float light) {
   return light <= 0.0031308F ? 12.92F * light : 1.055F * std::pow(light, 1 / 2.4F) - 0.055F;
 }
 
+bool isGltf(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".gltf" || extension == ".glb";
+}
+
 /// Assimp's scene, one mesh of it after the other, as ours.
 class Conversion {
  public:
   Conversion(const aiScene& from, std::filesystem::path file)
-      : from_(from), file_(std::move(file)), isGltf_(file_.extension() == ".gltf" || file_.extension() == ".glb") {}
+      : from_(from), file_(std::move(file)), isGltf_(isGltf(file_)) {}
 
   Scene run() {
     takeMaterials();

@@ -67,6 +67,8 @@ class ModelWindows {
     openRoom();
     if (options_.desktop) openPreview();
     setTables(*wall_, screens_, options_.inHardware, keeper_);
+    for (const auto& name : options_.inHardware)
+      fmt::print("{}: its output's own gamma ramp looks up the codes\n", name);
     if (command.track) loop_.addTask(&tracker_, tracker_.descriptor(), [this] { follow(); });
     // What the loop reads is drawn at once.
     fmt::print("showing {} windows; Escape ends\n", windows_.size());
