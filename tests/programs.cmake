@@ -37,7 +37,7 @@ pixelflex_test(view_pointer_test LABEL unit
 
 # Windows on one X server, the desktop on another.
 pixelflex_test(view_desk_test LABEL e2e TIMEOUT 240
-  SOURCES e2e/view_clipboard_test.cpp e2e/view_desk_test.cpp e2e/view_gestures_test.cpp e2e/view_outputs_test.cpp e2e/view_screens.h support/paint_client.cpp support/paint_client.h
-    support/x_shortcut.cpp support/x_shortcut.h
+  SOURCES e2e/view_clipboard_test.cpp e2e/view_desk_test.cpp e2e/view_desk_keys.h e2e/view_everyday_test.cpp e2e/view_gestures_test.cpp e2e/view_outputs_test.cpp e2e/view_screens.h support/paint_client.cpp support/paint_client.h
+    support/x_desk.cpp support/x_desk.h support/x_shortcut.cpp support/x_shortcut.h
   LINK pixelflex_test_support pixelflex_store X11::X11)
 add_dependencies(view_desk_test pixelflex-new pixelflex-view)

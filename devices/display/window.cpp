@@ -118,6 +118,14 @@ void Window::setHandlers(WindowHandlers handlers) {
     if (!state.lockedAt) return state.call(state.handlers.pointer, position);
     state.call(state.handlers.motion, position - std::exchange(*state.lockedAt, position));
   });
+  // GLFW tells of no motion to where the pointer was when it left.
+  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int entered) {
+    auto& state = State::of(w);
+    if (entered == GLFW_FALSE || state.lockedAt) return;
+    glm::dvec2 position;
+    glfwGetCursorPos(w, &position.x, &position.y);
+    state.call(state.handlers.pointer, position);
+  });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int /*mods*/) {
     State::of(w).handKeys(true);
     State::of(w).call(State::of(w).handlers.button, buttonNumber(button), action != GLFW_RELEASE);

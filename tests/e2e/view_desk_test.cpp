@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "tests/e2e/view_screens.h"
+#include "tests/e2e/view_desk_keys.h"
 #include "tests/support/paint_client.h"
 
 namespace pixelflex::testing {
@@ -12,7 +12,6 @@ using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 
 const std::vector<glm::ivec2> kApart{{0, 450}, {1050, 20}, {20, 20}, {700, 300}};
-const std::vector<glm::ivec2> kAsOnTheWall{{100, 90}, {400, 90}, {700, 90}, {1000, 90}};
 
 class DeskTest : public ScreensTest {
  protected:

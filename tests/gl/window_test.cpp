@@ -181,6 +181,21 @@ TEST_F(WindowTest, PointerButtonsAndWheelArrive) {
                                    std::pair(3, true), std::pair(3, false), std::pair(8, true), std::pair(8, false)));
 }
 
+TEST_F(WindowTest, APointerThatReturnsToWhereItLeftIsTold) {
+  Window window(loop_, {.title = "p", .size = {300, 200}, .at = glm::ivec2(100, 50), .borderless = true});
+  std::vector<glm::dvec2> pointer;
+  window.setHandlers({.pointer = [&](glm::dvec2 p) { pointer.push_back(p); }});
+  loop_.wait(100ms);
+  xdotool("mousemove 137 91");
+  EXPECT_TRUE(eventually([&] { return !pointer.empty() && pointer.back() == glm::dvec2(37, 41); }));
+  xdotool("mousemove 20 20");
+  loop_.wait(100ms);
+  pointer.clear();
+  xdotool("mousemove 137 91");
+  EXPECT_TRUE(eventually([&] { return !pointer.empty(); }));
+  EXPECT_THAT(pointer, ::testing::Each(glm::dvec2(37, 41)));
+}
+
 TEST_F(WindowTest, KeysArriveAsKeysyms) {
   Window window(loop_, {.title = "p", .size = {300, 200}, .at = glm::ivec2(100, 50), .borderless = true});
   std::vector<Key> keys;

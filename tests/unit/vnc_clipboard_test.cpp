@@ -115,7 +115,7 @@ TEST(ExtendedClipboard, FetchesWhatTheServerTellsOf) {
 
 TEST(ExtendedClipboard, TellsOfATextAndProvidesItWhenAsked) {
   Received offer, peeked, provided;
-  const FakeVncServer server([&](FakeConnection& client) {
+  const auto script = [&](FakeConnection& client) {
     client.shakeHands({8, 8});
     client.send(extended(kAll, {0, 0, 0, 0}).u8(2));
     (void)receiveExtended(client);  // what the client can do
@@ -124,11 +124,14 @@ TEST(ExtendedClipboard, TellsOfATextAndProvidesItWhenAsked) {
     peeked = receiveExtended(client);
     client.send(extended(kClipboardRequest | kClipboardText, {}));
     provided = receiveExtended(client);
-  });
-  DesktopMirror mirror(server.address());
-  EXPECT_TRUE(mirror.pumpUntil([&] { return mirror.last<Bell>().has_value(); })) << mirror.summary();
-  mirror.session().sendClipboard("→ line\n");
-  EXPECT_TRUE(mirror.pumpUntil([&] { return mirror.last<Closed>().has_value(); })) << mirror.summary();
+  };
+  {
+    const FakeVncServer server(script);
+    DesktopMirror mirror(server.address());
+    EXPECT_TRUE(mirror.pumpUntil([&] { return mirror.last<Bell>().has_value(); })) << mirror.summary();
+    mirror.session().sendClipboard("→ line\n");
+    EXPECT_TRUE(mirror.pumpUntil([&] { return mirror.last<Closed>().has_value(); })) << mirror.summary();
+  }
   EXPECT_EQ(offer.flags, kClipboardNotify | kClipboardText);
   EXPECT_EQ(peeked.flags, kClipboardNotify | kClipboardText);
   EXPECT_EQ(provided.flags, kClipboardProvide | kClipboardText);
@@ -157,15 +160,17 @@ TEST(ExtendedClipboard, LeavesOutWhatIsTooLong) {
 
 TEST(Pointer, SendsSideButtonsToServersThatTakeThem) {
   Bytes pressed;
-  const FakeVncServer server([&](FakeConnection& client) {
-    client.shakeHands({300, 200});
-    client.send(Message().update(1).rect(0, 0, 0, 0, kExtendedMouseButtonsEncoding).u8(2));
-    pressed = client.receive(10 + 7);  // a request for the next update comes first
-  });
-  DesktopMirror mirror(server.address());
-  EXPECT_TRUE(mirror.pumpUntil([&] { return mirror.last<Bell>().has_value(); })) << mirror.summary();
-  mirror.session().sendPointer(9, 8, 1u << 8 | 1u);
-  EXPECT_TRUE(mirror.pumpUntil([&] { return mirror.last<Closed>().has_value(); })) << mirror.summary();
+  {
+    const FakeVncServer server([&](FakeConnection& client) {
+      client.shakeHands({300, 200});
+      client.send(Message().update(1).rect(0, 0, 0, 0, kExtendedMouseButtonsEncoding).u8(2));
+      pressed = client.receive(10 + 7);  // a request for the next update comes first
+    });
+    DesktopMirror mirror(server.address());
+    EXPECT_TRUE(mirror.pumpUntil([&] { return mirror.last<Bell>().has_value(); })) << mirror.summary();
+    mirror.session().sendPointer(9, 8, 1u << 8 | 1u);
+    EXPECT_TRUE(mirror.pumpUntil([&] { return mirror.last<Closed>().has_value(); })) << mirror.summary();
+  }
   ASSERT_EQ(pressed.size(), 17u);
   EXPECT_THAT(Bytes(pressed.begin() + 10, pressed.end()), ElementsAre(5, 0x81, 0, 9, 0, 8, 2));
   EXPECT_THAT(pointerMessage(9, 8, 1u << 8 | 1u, false), ElementsAre(5, 1, 0, 9, 0, 8));
