@@ -17,6 +17,12 @@ const std::string kStopped = "stopped on request";
 
 }  // namespace
 
+struct DeviceWorker::Reading {
+  std::string identity;
+  std::vector<std::string> actions;
+  std::vector<SettingState> settings;
+};
+
 DeviceWorker::DeviceWorker(ConsoleBoard& board, std::size_t index, std::shared_ptr<devices::Device> device,
                            std::chrono::milliseconds pollEvery)
     : board_(board),
@@ -199,29 +205,46 @@ void DeviceWorker::failed(const std::string& why) {
 
 /// One setting after the other, as long as nobody waits for the device.
 void DeviceWorker::readAll(const std::stop_token& stop) {
-  const std::string identity = device_->identity();
-  const auto actions = device_->actions();
-  std::vector<SettingState> settings;
-  for (const auto& info : device_->settings()) settings.push_back({info, ""});
+  constexpr std::chrono::seconds kShowEvery{1};
+  Reading reading{.identity = device_->identity(), .actions = device_->actions()};
+  for (const auto& info : device_->settings()) reading.settings.push_back({info, valueBefore(info.name)});
+  auto shown = std::chrono::steady_clock::now();
   bool awake = true;
-  for (auto& [info, value] : settings) {
+  for (auto& [info, value] : reading.settings) {
     if (stop.stop_requested() || hasTasks()) return;
-    if (!info.readable || !awake) continue;
-    try {
-      value = devices::textOf(device_->read(info.name));
-      // In standby there is nothing else to be heard.
-      if (info.name == "power") awake = value == "on";
-    } catch (const devices::DeviceError&) {
-      value.clear();
-    }
+    value = info.readable && awake ? read(info.name) : "";
+    // In standby there is nothing else to be heard.
+    if (info.name == "power") awake = value == "on";
+    if (std::chrono::steady_clock::now() - shown < kShowEvery) continue;
+    shown = std::chrono::steady_clock::now();
+    show(reading);
   }
+  show(reading);
+}
+
+/// Empty when it cannot be told now.
+std::string DeviceWorker::read(const std::string& setting) {
+  try {
+    return devices::textOf(device_->read(setting));
+  } catch (const devices::DeviceError&) {
+    return "";
+  }
+}
+
+std::string DeviceWorker::valueBefore(const std::string& setting) const {
+  const auto wall = board_.snapshot();
+  const auto* state = wall->devices.at(index_)->find(setting);
+  return state == nullptr ? "" : state->value;
+}
+
+void DeviceWorker::show(const Reading& reading) {
   board_.changeDevice(index_, [&](DeviceState& state) {
     // What went wrong with a command is said until one goes well; a lost line is well when it is back.
     if (state.contact == DeviceState::Contact::kLost) state.trouble.clear();
     state.contact = DeviceState::Contact::kWell;
-    state.identity = identity;
-    state.actions = actions;
-    state.settings = std::move(settings);
+    state.identity = reading.identity;
+    state.actions = reading.actions;
+    state.settings = reading.settings;
   });
 }
 

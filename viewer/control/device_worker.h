@@ -57,7 +57,11 @@ class DeviceWorker {
   void run(const DeviceTask& task);
   void readBack(const std::vector<DeviceStep>& steps);
   void poll(const std::stop_token& stop);
+  struct Reading;
   void readAll(const std::stop_token& stop);
+  [[nodiscard]] std::string read(const std::string& setting);
+  [[nodiscard]] std::string valueBefore(const std::string& setting) const;
+  void show(const Reading& reading);
   [[nodiscard]] bool hasTasks();
   [[nodiscard]] std::vector<DeviceTask> dropTasks();
   void succeeded();

@@ -158,8 +158,8 @@ void WallConsole::cancel(int job) {
   parts_->longJob.cancel(job);
 }
 
-void WallConsole::note(const std::string& text) {
-  parts_->board.log(LogLine::Kind::kNote, text);
+void WallConsole::log(LogLine::Kind kind, const std::string& text) {
+  parts_->board.log(kind, text);
 }
 
 }  // namespace pixelflex::viewer

@@ -56,7 +56,7 @@ class WallConsole {
   void cancel(int job);
 
   /// A line of the log.
-  void note(const std::string& text);
+  void log(LogLine::Kind kind, const std::string& text);
 
  private:
   struct Parts;

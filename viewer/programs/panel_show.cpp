@@ -1,0 +1,69 @@
+#include "viewer/programs/panel_show.h"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "devices/display/event_loop.h"
+#include "devices/display/monitors.h"
+#include "devices/display/window_projector.h"
+#include "viewer/panel/test_picture_images.h"
+#include "viewer/programs/quit_signal.h"
+
+namespace pixelflex::viewer {
+namespace {
+
+using calib::OutputKind;
+
+std::vector<calib::ProjectorConfig> chosen(const calib::Wall& wall, const std::vector<std::string>& names) {
+  std::vector<calib::ProjectorConfig> projectors;
+  for (const auto& name : names) {
+    const auto found = std::ranges::find(wall.projectors, name, &calib::ProjectorConfig::name);
+    if (found == wall.projectors.end()) throw std::runtime_error("\"" + name + "\" is no projector of this wall");
+    const OutputKind kind = found->output.kind;
+    if (kind != OutputKind::kMonitor && kind != OutputKind::kDisplay) {
+      throw std::runtime_error(name + ": wall.yaml gives it no monitor or display, so nothing can be shown");
+    }
+    projectors.push_back(*found);
+  }
+  return projectors;
+}
+
+std::optional<std::string> displayOf(const calib::ProjectorConfig& projector) {
+  if (projector.output.kind == OutputKind::kDisplay) return projector.output.display;
+  return std::nullopt;
+}
+
+glm::ivec2 placeOf(const devices::EventLoop& loop, const calib::Output& output) {
+  return output.kind == OutputKind::kDisplay ? output.at : devices::findMonitor(loop, output.monitor).position;
+}
+
+}  // namespace
+
+void showTestPicture(const calib::Wall& wall, const std::vector<std::string>& names, const std::string& picture) {
+  const auto projectors = chosen(wall, names);
+  const auto display = displayOf(projectors.front());
+  for (const auto& projector : projectors) {
+    if (displayOf(projector) == display) continue;
+    throw std::runtime_error(projector.name + " and " + projectors.front().name +
+                             " are on different X displays: show the picture on one after the other");
+  }
+  std::atomic<bool> over = false;
+  // Before the threads of the graphics driver.
+  const QuitSignal quit([&over] {
+    over = true;
+    devices::EventLoop::wake();
+  });
+  devices::EventLoop loop(display);
+  std::vector<std::unique_ptr<devices::WindowProjector>> windows;
+  for (const auto& projector : projectors) {
+    auto& window = windows.emplace_back(std::make_unique<devices::WindowProjector>(
+        projector.name, loop, projector.resolution, placeOf(loop, projector.output)));
+    window->show(drawTestPicture(picture, projector.name, projector.resolution));
+  }
+  while (!over) loop.wait(std::chrono::seconds(1));
+}
+
+}  // namespace pixelflex::viewer
