@@ -217,9 +217,9 @@ void DeviceWorker::readAll(const std::stop_token& stop) {
     if (info.name == "power") awake = value == "on";
     if (std::chrono::steady_clock::now() - shown < kShowEvery) continue;
     shown = std::chrono::steady_clock::now();
-    show(reading);
+    show(reading, false);
   }
-  show(reading);
+  show(reading, true);
 }
 
 /// Empty when it cannot be told now.
@@ -237,11 +237,11 @@ std::string DeviceWorker::valueBefore(const std::string& setting) const {
   return state == nullptr ? "" : state->value;
 }
 
-void DeviceWorker::show(const Reading& reading) {
+void DeviceWorker::show(const Reading& reading, bool whole) {
   board_.changeDevice(index_, [&](DeviceState& state) {
     // What went wrong with a command is said until one goes well; a lost line is well when it is back.
-    if (state.contact == DeviceState::Contact::kLost) state.trouble.clear();
-    state.contact = DeviceState::Contact::kWell;
+    if (whole && state.contact == DeviceState::Contact::kLost) state.trouble.clear();
+    if (whole) state.contact = DeviceState::Contact::kWell;
     state.identity = reading.identity;
     state.actions = reading.actions;
     state.settings = reading.settings;

@@ -61,7 +61,8 @@ class DeviceWorker {
   void readAll(const std::stop_token& stop);
   [[nodiscard]] std::string read(const std::string& setting);
   [[nodiscard]] std::string valueBefore(const std::string& setting) const;
-  void show(const Reading& reading);
+  /// A device that takes long is shown before it is `whole`.
+  void show(const Reading& reading, bool whole);
   [[nodiscard]] bool hasTasks();
   [[nodiscard]] std::vector<DeviceTask> dropTasks();
   void succeeded();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <ranges>
+#include <utility>
 
 #include "viewer/panel/open_file.h"
 #include "viewer/panel/panel_style.h"
@@ -49,6 +50,15 @@ const ConsoleJob* lastCalibration(const WallSnapshot& wall) {
 
 }  // namespace
 
+void CalibrationView::begin(PanelContext& panel) {
+  const auto arguments = *std::exchange(panel.choice.calibration, std::nullopt);
+  panel.attempt([&] {
+    const int job = panel.console.calibrate(arguments);
+    const bool checks = std::ranges::find(arguments, "--check") != arguments.end();
+    panel.choice.calibrationJob = checks ? 0 : job;
+  });
+}
+
 void CalibrationView::update(PanelContext& panel) {
   const auto* job = panel.wall->find(panel.choice.calibrationJob);
   if (panel.choice.calibrationJob == 0 || (job != nullptr && job->running)) return;
@@ -77,14 +87,13 @@ void CalibrationView::drawState(const PanelContext& panel) {
 }
 
 void CalibrationView::drawButtons(PanelContext& panel) {
-  const bool busy = panel.longJob() != nullptr;
+  const bool busy = panel.longJob() != nullptr || panel.choice.calibration;
   ImGui::BeginDisabled(busy);
   for (std::size_t i = 0; i < measurements().size(); ++i) {
     const auto& [name, label, what, arguments] = measurements()[i];
     const ButtonLook look = i < 2 ? ButtonLook::kStrong : ButtonLook::kPlain;
     if (panelButton(panel, std::string("calibrate-") + name, label, look, 150 * panelScale())) {
-      panel.attempt([&] { panel.choice.calibrationJob = panel.console.calibrate(arguments); });
-      if (std::string(name) == "check") panel.choice.calibrationJob = 0;
+      panel.choice.calibration = arguments;
     }
     ImGui::SameLine();
     dimText(what);

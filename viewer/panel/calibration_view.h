@@ -8,6 +8,8 @@ namespace pixelflex::viewer {
 class CalibrationView {
  public:
   void draw(PanelContext& panel);
+  /// The one that was chosen.
+  static void begin(PanelContext& panel);
   /// Opens the report when a calibration begun here has ended well; every frame.
   static void update(PanelContext& panel);
 

@@ -10,6 +10,7 @@
 
 #include "calib/estimate/fiducials.h"
 #include "calib/simulate/simulated_wall.h"
+#include "devices/camera/cameras.h"
 
 namespace pixelflex::viewer {
 namespace {
@@ -40,9 +41,13 @@ devices::Image8 reduced(const devices::Image8& photo, int mostWidth) {
 class CameraFeed::Source {
  public:
   Source(const std::filesystem::path& folder, const calib::Wall& wall) {
-    if (wall.camera.source != "sim") {
-      throw std::runtime_error("This wall's camera is \"" + wall.camera.source +
-                               "\" in wall.yaml, which gives no live picture.");
+    const std::string& source = wall.camera.source;
+    if (source == "photos" || source == "none") {
+      throw std::runtime_error("wall.yaml has camera: source: " + source + ", which gives no live picture.");
+    }
+    if (source != "sim") {
+      real_ = devices::openCamera(source);
+      return;
     }
     if (!wall.rig) throw std::runtime_error("camera: sim needs a rig: FILE as well in wall.yaml");
     room_ = std::make_unique<calib::SimulatedWall>(calib::loadRig(folder / *wall.rig));
@@ -50,14 +55,15 @@ class CameraFeed::Source {
   }
 
   void show(const std::string& projector, const devices::Image8& frame) {
-    for (std::size_t i = 0; i < room_->projectorCount(); ++i) {
+    for (std::size_t i = 0; room_ && i < room_->projectorCount(); ++i) {
       devices::Projector& each = room_->projector(i);
       if (each.name() == projector && each.resolution() == frame.size()) each.show(frame);
     }
   }
-  [[nodiscard]] devices::Camera& camera() { return room_->camera(); }
+  [[nodiscard]] devices::Camera& camera() { return real_ ? *real_ : room_->camera(); }
 
  private:
+  std::unique_ptr<devices::Camera> real_;
   std::unique_ptr<calib::SimulatedWall> room_;
 };
 
@@ -73,6 +79,11 @@ void CameraFeed::want(bool wanted) {
   wake_.notify_all();
 }
 
+bool CameraFeed::isClosed() const {
+  const std::lock_guard lock(mutex_);
+  return !wanted_ && !open_;
+}
+
 std::shared_ptr<const CameraPicture> CameraFeed::latest() const {
   const std::lock_guard lock(mutex_);
   return latest_;
@@ -80,18 +91,14 @@ std::shared_ptr<const CameraPicture> CameraFeed::latest() const {
 
 void CameraFeed::showInRoom(const std::string& projector, devices::Image8 frame) {
   const std::lock_guard lock(mutex_);
-  frames_[projector] = std::move(frame);
+  frames_[projector] = std::make_shared<const devices::Image8>(std::move(frame));
 }
 
 void CameraFeed::run(const std::stop_token& stop) {
   (void)::setpriority(PRIO_PROCESS, 0, kNice);  // of this thread, on Linux, and of those that it starts
   std::unique_ptr<Source> source;
   std::uint64_t number = 0;
-  while (true) {
-    {
-      std::unique_lock lock(mutex_);
-      if (!wake_.wait(lock, stop, [this] { return wanted_; }) || stop.stop_requested()) return;
-    }
+  while (waitUntilWanted(stop, source)) {
     std::shared_ptr<CameraPicture> picture;
     try {
       if (!source) source = std::make_unique<Source>(folder_, *wall_);
@@ -105,17 +112,30 @@ void CameraFeed::run(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     latest_ = picture;
     const auto pause = picture->trouble.empty() ? std::chrono::milliseconds(kPause) : kPauseAfterTrouble;
-    (void)wake_.wait_for(lock, stop, pause, [] { return false; });
+    (void)wake_.wait_for(lock, stop, pause, [this] { return !wanted_; });
   }
 }
 
-std::shared_ptr<CameraPicture> CameraFeed::shoot(Source& source) {
-  std::map<std::string, devices::Image8> frames;
-  {
-    const std::lock_guard lock(mutex_);
-    frames.swap(frames_);
+/// False: it is over. Meanwhile others may have the camera.
+bool CameraFeed::waitUntilWanted(const std::stop_token& stop, std::unique_ptr<Source>& source) {
+  std::unique_lock lock(mutex_);
+  if (!wanted_) {
+    lock.unlock();
+    source.reset();
+    lock.lock();
+    open_ = false;
   }
-  for (const auto& [projector, frame] : frames) source.show(projector, frame);
+  if (!wake_.wait(lock, stop, [this] { return wanted_; }) || stop.stop_requested()) return false;
+  open_ = true;
+  return true;
+}
+
+std::shared_ptr<CameraPicture> CameraFeed::shoot(Source& source) {
+  const auto frames = [this] {
+    const std::lock_guard lock(mutex_);
+    return frames_;
+  }();
+  for (const auto& [projector, frame] : frames) source.show(projector, *frame);
   auto picture = std::make_shared<CameraPicture>();
   const auto begun = Clock::now();
   const devices::Image8 photo = source.camera().shoot();

@@ -35,8 +35,10 @@ class CameraFeed {
   CameraFeed(const CameraFeed&) = delete;
   CameraFeed& operator=(const CameraFeed&) = delete;
 
-  /// Opens the camera when first wanted.
+  /// The camera is opened when wanted, and closed again when not.
   void want(bool wanted);
+  /// Not wanted, and others may use the camera.
+  [[nodiscard]] bool isClosed() const;
   /// Never null.
   [[nodiscard]] std::shared_ptr<const CameraPicture> latest() const;
   /// What a projector of a simulated wall shows from now on.
@@ -45,6 +47,7 @@ class CameraFeed {
  private:
   class Source;
   void run(const std::stop_token& stop);
+  [[nodiscard]] bool waitUntilWanted(const std::stop_token& stop, std::unique_ptr<Source>& source);
   [[nodiscard]] std::shared_ptr<CameraPicture> shoot(Source& source);
 
   std::filesystem::path folder_;
@@ -52,7 +55,8 @@ class CameraFeed {
   mutable std::mutex mutex_;
   std::condition_variable_any wake_;
   bool wanted_ = false;
-  std::map<std::string, devices::Image8> frames_;  // to be shown before the next photograph
+  bool open_ = false;
+  std::map<std::string, std::shared_ptr<const devices::Image8>> frames_;  // of the simulated room
   std::shared_ptr<const CameraPicture> latest_ = std::make_shared<const CameraPicture>();
   std::jthread thread_;
 };

@@ -54,6 +54,7 @@ void CameraView::upload(const CameraPicture& picture) {
 
 void CameraView::draw(PanelContext& panel) {
   const auto picture = feed_.latest();
+  if (panel.longJob() != nullptr) dimText("The live picture rests while something else may need the camera.");
   if (picture->number != uploaded_) upload(*picture);
   if (picture->number == 0) return dimText("Waiting for the camera's first picture…");
   if (!picture->trouble.empty()) return wrappedText(Colours::kBad, picture->trouble);

@@ -1,8 +1,10 @@
 #include "viewer/panel/device_list.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
+#include <charconv>
 
 #include "viewer/panel/panel_style.h"
 #include "viewer/panel/widgets.h"
@@ -21,8 +23,9 @@ std::string valueOf(const DeviceState& state, const std::string& setting) {
 
 /// "12.5", not "12.4997".
 std::string degrees(const std::string& text) {
-  const auto point = text.find('.');
-  return point == std::string::npos ? text : text.substr(0, point + 2);
+  double number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return fmt::format("{:.1f}°", number + 0.0);
 }
 
 /// What matters most about a device in few words.
@@ -30,7 +33,7 @@ std::string summaryOf(const DeviceState& state) {
   if (state.device.isMirror) {
     const std::string pan = valueOf(state, "pan");
     const std::string tilt = valueOf(state, "tilt");
-    return pan.empty() ? "" : "pan " + degrees(pan) + "°  tilt " + degrees(tilt) + "°";
+    return pan.empty() ? "" : "pan " + degrees(pan) + "  tilt " + degrees(tilt);
   }
   std::string text = valueOf(state, "power");
   if (valueOf(state, "mute") == "on") text += ", muted";

@@ -137,11 +137,13 @@ void MapView::takePointer(PanelContext& panel, const View& view) {
     const Footprint* hit = footprintAt(pointInWall);
     if (!io.KeyCtrl) panel.choice.projectors.clear();
     if (hit != nullptr) panel.choice.projectors.insert(hit->projector);
-    if (hit != nullptr) drag_ = Drag{hit->projector, {0, 0}};
+    if (hit != nullptr) drag_ = Drag{hit->projector, pointer, {0, 0}};
   }
   if (!drag_) return;
-  const ImVec2 moved = ImGui::GetMouseDragDelta(ImGuiMouseButton_Left);
-  drag_->by = glm::dvec2(moved.x, moved.y) / view.scale;
+  // A hand that only clicks trembles.
+  constexpr double kTremble = 4;
+  const glm::dvec2 moved = pointer - drag_->from;
+  drag_->by = glm::length(moved) < kTremble * panelScale() ? glm::dvec2(0, 0) : moved / view.scale;
   if (!ImGui::IsItemDeactivated()) return;
   const Drag drag = *drag_;
   drag_.reset();

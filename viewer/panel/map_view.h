@@ -40,7 +40,8 @@ class MapView {
   };
   struct Drag {
     std::string projector;
-    glm::dvec2 by{0, 0};  // wall units
+    glm::dvec2 from{0, 0};  // window pixels
+    glm::dvec2 by{0, 0};    // wall units
   };
 
   void measure(const WallSnapshot& wall);

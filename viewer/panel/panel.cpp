@@ -80,6 +80,7 @@ bool Panel::shortcut(const devices::KeyStroke& stroke) {
 void Panel::draw() {
   PanelContext panel = context();
   map_.update(*panel.wall);
+  updateCamera(panel);
   CalibrationView::update(panel);
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0, 0});
@@ -93,6 +94,12 @@ void Panel::draw() {
   ImGui::EndChild();
   ImGui::End();
   controls_.finish();
+}
+
+/// A calibration needs the camera for itself.
+void Panel::updateCamera(PanelContext& panel) {
+  feed_.want(cameraOpen_ && !panel.longJob() && !panel.choice.calibration);
+  if (panel.choice.calibration && feed_.isClosed()) CalibrationView::begin(panel);
 }
 
 void Panel::drawTop(PanelContext& panel) {
@@ -151,10 +158,7 @@ void Panel::drawTab(PanelContext& panel, const char* name, const char* label) {
   const ImGuiTabItemFlags flags = panel.choice.tab == tab ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
   const bool open = ImGui::BeginTabItem(label, nullptr, flags);
   panel.map.add("tab-" + tab);
-  if (tab == "camera") {
-    cameraOpen_ = open;
-    feed_.want(open);
-  }
+  if (tab == "camera") cameraOpen_ = open;
   if (!open) return;
   if (tab == "map") map_.draw(panel);
   if (tab == "camera") camera_.draw(panel);

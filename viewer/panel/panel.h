@@ -32,11 +32,14 @@ class Panel {
   bool shortcut(const devices::KeyStroke& stroke);
   /// Another one: there is something new to be drawn.
   [[nodiscard]] std::uint64_t revision() const;
+  /// Something is being waited for that no revision tells.
+  [[nodiscard]] bool isPending() const { return choice_.calibration.has_value(); }
   /// The camera is looked at, and its first picture is still to come.
   [[nodiscard]] bool awaitsCamera() const { return cameraOpen_ && feed_.latest()->number == 0; }
 
  private:
   [[nodiscard]] PanelContext context();
+  void updateCamera(PanelContext& panel);
   void drawTop(PanelContext& panel);
   void drawMiddle(PanelContext& panel);
   void drawTab(PanelContext& panel, const char* name, const char* label);

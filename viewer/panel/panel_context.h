@@ -16,8 +16,9 @@ namespace pixelflex::viewer {
 /// What a person has chosen in the panel.
 struct PanelChoice {
   std::set<std::string> projectors;
-  std::string tab = "map";  // to be opened in the next frame; empty: stay
-  int calibrationJob = 0;   // whose end opens the report; 0: none
+  std::string tab = "map";                              // to be opened in the next frame; empty: stay
+  std::optional<std::vector<std::string>> calibration;  // to be begun as soon as the live picture has let the camera go
+  int calibrationJob = 0;                               // whose end opens the report; 0: none
   bool opensReport = true;
 };
 

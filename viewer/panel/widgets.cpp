@@ -104,7 +104,8 @@ DeviceWords wordsOf(const DeviceState& state) {
   if (!state.doing.empty()) return {state.doing, Colours::kWarn};
   if (state.contact == DeviceState::Contact::kLost) return {withoutAddress(state, state.trouble), Colours::kBad};
   if (!state.trouble.empty()) return {withoutAddress(state, state.trouble), Colours::kWarn};
-  if (state.contact == DeviceState::Contact::kNotYet) return {"connecting", Colours::kDim};
+  const bool silent = state.contact == DeviceState::Contact::kNotYet && state.settings.empty();
+  if (silent) return {"connecting", Colours::kDim};
   return {"", Colours::kGood};
 }
 

@@ -88,7 +88,8 @@ void runWindow(WallConsole& console, Panel& panel, const Options& options, const
   std::uint64_t shown = 0;
   while (!quit && !window.closed()) {
     loop.wait(window.needsFrame() ? std::chrono::duration<double>(0.001) : kLook);
-    if (!window.needsFrame() && panel.revision() == shown && options.screenshot.empty()) continue;
+    const bool idle = !window.needsFrame() && !panel.isPending() && panel.revision() == shown;
+    if (idle && options.screenshot.empty()) continue;
     shown = panel.revision();
     const auto begun = FrameTimes::Clock::now();
     window.frame([&] { panel.draw(); });
