@@ -83,9 +83,11 @@ TEST_F(PanelTest, PresetsAreSavedAndRestored) {
   startPanel({"--tab", "presets", "--projectors", "p1"});
   waitForSettings();
   press("preset-name");
+  ASSERT_NO_THROW((void)find("preset-name-active"));
   (void)screen_.query({"xdotool", "type", "--delay", "20", "evening"});
   press("preset-save");
-  ASSERT_TRUE(comes([&] { return std::filesystem::exists(folder() + "/presets/evening.yaml"); })) << log();
+  ASSERT_TRUE(comes([&] { return std::filesystem::exists(folder() + "/presets/evening.yaml"); }))
+      << ::testing::PrintToString(calib::presetNames(folder())) << log();
   press("set-mute-on");
   press("jog-up");
   ASSERT_TRUE(comes([&] { return projector("p1.control").mute; })) << log();

@@ -43,6 +43,7 @@ void PresetView::drawSave(PanelContext& panel) {
   const bool entered = ImGui::InputTextWithHint("##name", "name of a new preset", name_.data(), name_.size(),
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
   panel.map.add("preset-name");
+  if (ImGui::IsItemActive()) panel.map.add("preset-name-active");
   ImGui::SameLine();
   ImGui::BeginDisabled(busy || name_[0] == '\0');
   const bool pressed = panelButton(panel, "preset-save", "Save what is now", ButtonLook::kStrong);
