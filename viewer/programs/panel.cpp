@@ -8,10 +8,10 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
+#include "calib/programs/command_line.h"
 #include "calib/store/store.h"
 #include "calib/store/wall_devices.h"
 #include "devices/display/event_loop.h"
@@ -28,7 +28,6 @@
 namespace pixelflex::viewer {
 namespace {
 
-constexpr int kWrongUsage = 2;
 constexpr std::array kTabs = {"map", "camera", "calibration", "presets"};
 
 struct Options {
@@ -136,7 +135,6 @@ void defineOptions(CLI::App& app, Options& options) {
   app.add_option("--controls", options.controls,
                  "For programs that drive the panel: keep a list of where each control is here");
   app.add_flag("--stats", options.stats, "At the end print how long frames took");
-  app.set_version_flag("--version", "pixelflex-panel " PIXELFLEX_VERSION);
   app.footer(
       "Choose projectors on the left or on the map (Ctrl: one more, Shift: a row of them); what is set at the right "
       "goes\n"
@@ -148,12 +146,10 @@ void defineOptions(CLI::App& app, Options& options) {
 
 int run(const Options& options) {
   if (options.picture.empty()) {
-    (void)sizeOf(options.size);
     runPanel(options);
-    return 0;
+  } else {
+    showTestPicture(calib::loadWall(options.wall), options.projectors, options.picture);
   }
-  if (options.projectors.empty()) throw CLI::RequiredError("--projectors");
-  showTestPicture(calib::loadWall(options.wall), options.projectors, options.picture);
   return 0;
 }
 
@@ -165,16 +161,10 @@ int main(int argc, char** argv) {
   CLI::App app("The control panel of a wall: projectors, mirrors, camera, calibration and presets.", "pixelflex panel");
   viewer::Options options;
   viewer::defineOptions(app, options);
-  try {
+  const auto parse = [&] {
     app.parse(argc, argv);
-    return viewer::run(options);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "pixelflex-panel: {}; see pixelflex panel --help\n", error.what());
-    return viewer::kWrongUsage;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "pixelflex-panel: {}\n", error.what());
-    return 1;
-  }
+    (void)viewer::sizeOf(options.size);
+    if (!options.picture.empty() && options.projectors.empty()) throw CLI::RequiredError("--projectors");
+  };
+  return calib::runCommand(app, parse, [&] { return viewer::run(options); });
 }
