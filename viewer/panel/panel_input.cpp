@@ -84,11 +84,13 @@ void PanelInput::begin() {
 void PanelInput::apply() {
   ImGuiIO& io = ImGui::GetIO();
   bool pressed = false;  // a button or a key, which takes a frame to be seen
+  bool moved = false;    // and where the pointer is must have been seen before a button goes down there
   while (!events_.empty()) {
     const Event& event = events_.front();
     if (const auto* position = std::get_if<glm::dvec2>(&event)) {
       // A button belongs to where the pointer was then.
       if (pressed) return;
+      moved = true;
       io.MousePos = {static_cast<float>(position->x), static_cast<float>(position->y)};
     } else if (const auto* scroll = std::get_if<Scroll>(&event)) {
       io.MouseWheel += static_cast<float>(scroll->steps.y);
@@ -96,6 +98,7 @@ void PanelInput::apply() {
     } else if (pressed) {
       return;
     } else if (const auto* button = std::get_if<Button>(&event)) {
+      if (moved) return;
       const int index = buttonIndex(button->button);
       if (index >= 0) io.MouseDown[index] = button->pressed;
       pressed = true;
