@@ -23,6 +23,8 @@ using asio::ip::tcp;
 using boost::system::error_code;
 
 constexpr std::chrono::seconds kLinger{2};
+// A body that comes in chunks of a byte each is so many times as long.
+constexpr std::size_t kWrapping = 8;
 
 using WireRequest = http::request<http::string_body>;
 using WireReply = http::response<http::string_body>;
@@ -69,7 +71,8 @@ std::optional<HttpReply> complaint(const error_code& error) {
     return std::optional(HttpReply{.status = status, .body = errorJson(why)});
   };
   if (error == http::error::body_limit) return reply(413, "the body is too long");
-  if (error == http::error::header_limit) return reply(431, "the headers are too long");
+  if (error == http::error::header_limit || error == http::error::buffer_overflow)
+    return reply(431, "the headers are too long");
   if (error == beast::error::timeout || error.category() != make_error_code(http::error::bad_version).category() ||
       error == http::error::end_of_stream || error == http::error::partial_message) {
     return std::nullopt;
@@ -97,7 +100,8 @@ struct HttpServer::Core : std::enable_shared_from_this<HttpServer::Core> {
 
 class HttpServer::Core::Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(std::shared_ptr<Core> core, tcp::socket socket) : core_(std::move(core)), stream_(std::move(socket)) {
+  Connection(std::shared_ptr<Core> core, tcp::socket socket)
+      : core_(std::move(core)), stream_(std::move(socket)), buffer_(core_->options.headerBytes) {
     core_->connections.insert(this);
   }
   ~Connection() { core_->connections.erase(this); }
@@ -109,8 +113,8 @@ class HttpServer::Core::Connection : public std::enable_shared_from_this<Connect
     parser_->header_limit(static_cast<std::uint32_t>(core_->options.headerBytes));
     parser_->body_limit(core_->options.bodyBytes);
     stream_.expires_after(core_->options.patience);
-    http::async_read(stream_, buffer_, *parser_,
-                     [self = shared_from_this()](const error_code& error, std::size_t) { self->heard(error); });
+    whole_ = 0;
+    readOn();
   }
 
   void close() {
@@ -120,12 +124,27 @@ class HttpServer::Core::Connection : public std::enable_shared_from_this<Connect
   }
 
  private:
-  void heard(const error_code& error) {
+  void readOn() {
+    http::async_read_some(
+        stream_, buffer_, *parser_,
+        [self = shared_from_this()](const error_code& error, std::size_t count) { self->heard(error, count); });
+  }
+
+  void heard(error_code error, std::size_t count) {
     if (!core_->answer) return;
+    // The parser counts neither short header lines nor what is around the parts of a body.
+    whole_ += count;
+    const std::size_t head = core_->options.headerBytes;
+    if (!error && !parser_->is_header_done() && whole_ > head) error = http::error::header_limit;
+    if (!error && whole_ > head + kWrapping * core_->options.bodyBytes) error = http::error::body_limit;
     if (error) {
       const auto reply = complaint(error);
       return reply ? write(*reply, false) : close();
     }
+    return parser_->is_done() ? answer() : readOn();
+  }
+
+  void answer() {
     const WireRequest& request = parser_->get();
     HttpReply reply = core_->answer(messageOf(request));
     const bool isHead = request.method() == http::verb::head;
@@ -158,8 +177,9 @@ class HttpServer::Core::Connection : public std::enable_shared_from_this<Connect
 
   std::shared_ptr<Core> core_;
   beast::tcp_stream stream_;
-  beast::flat_buffer buffer_{128UL * 1024};
+  beast::flat_buffer buffer_;  // its limit holds whatever way headers come
   std::optional<http::request_parser<http::string_body>> parser_;
+  std::size_t whole_ = 0;  // bytes of this request
   WireReply wire_;
   std::array<char, 4096> rest_{};
 };

@@ -17,8 +17,9 @@ namespace pixelflex::viewer {
 
 struct HttpServerOptions {
   ListenAddress at;
-  std::size_t connections = 64;       // at once; more are closed at once
-  std::chrono::seconds patience{15};  // for a whole request, also the next one of a connection, and for its reply
+  std::size_t connections = 64;  // at once; more are closed at once
+  std::chrono::milliseconds patience{
+      15'000};  // for a whole request, also the next one of a connection, and for its reply
   std::size_t headerBytes = 8 * 1024;
   std::size_t bodyBytes = 64 * 1024;
 };
