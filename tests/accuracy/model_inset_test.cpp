@@ -26,8 +26,9 @@ using viewer::WallPlan;
 
 constexpr std::size_t kWide = 0;
 constexpr std::size_t kInset = 1;
-constexpr int kPeriods = 8;   // that are looked at
-constexpr int kSamples = 48;  // of a period
+constexpr double kWhole = 4096;  // without a gap in sight: pixels of the wide one
+constexpr int kPeriods = 8;      // that are looked at
+constexpr int kSamples = 48;     // of a period
 
 /// Upright stripes in the window's plane, as wide as the gaps between them.
 viewer::Scene stripes(const viewer::WallWindow& window, double period) {
@@ -52,7 +53,7 @@ class InsetWall {
       : room_(calib::insetRig(1)),
         calibrated_(calib::calibrateRig(room_, folder_.path(), calib::Method::kBlobs, {.priorityFeather = 60})),
         plan_(folder_.path(), calibrated_.wall, calibrated_.calibration, {}) {
-    stripe_ = 4096;  // without a gap in sight
+    stripe_ = kWhole;
     white_ = model({});
   }
 
@@ -69,6 +70,30 @@ class InsetWall {
     ModelWall model(context, plan_, options);
     show(model);
     return {model.read(kWide), model.read(kInset)};
+  }
+
+  /// Where the inset's second pass puts the white model beside where its calibration does: the largest distance in the
+  /// inset's pixels, at `count` pixels.
+  double closeUpError(std::size_t& count) {
+    setStripe(kWhole);
+    devices::HeadlessContext context;
+    ModelWall model(context, plan_, {.passes = 2, .model = {.measure = true}});
+    show(model);
+    const auto frame = model.readFloat(kInset);
+    const calib::ProjectorMapping mapping(*plan_.projectors()[kInset]);
+    const auto& display = plan_.display();
+    const glm::dvec2 middle(0.5 * (display.left + display.right), 0.5 * (display.top + display.bottom));
+    double largest = 0;
+    for (int y = 2; y < frame.height() - 2; y += 5) {
+      for (int x = 2; x < frame.width() - 2; x += 5) {
+        if (frame.at(x, y, 3) < 1) continue;
+        const glm::dvec2 shown = middle + glm::dvec2(frame.at(x, y, 0), -frame.at(x, y, 1));
+        const auto there = mapping.projectorFromWall(shown);
+        largest = std::max(largest, there ? glm::distance(*there, glm::dvec2(x + 0.5, y + 0.5)) : 1e9);
+        ++count;
+      }
+    }
+    return largest;
   }
 
   /// The model's picture on the desktop, shown as any desktop is.
@@ -141,6 +166,11 @@ TEST(ModelInset, ShowsItsPartSharper) {
   ASSERT_TRUE(closeUp);
   EXPECT_FALSE(viewer::closeUpOf(wall.plan(), kWide));
   EXPECT_NEAR(closeUp->resolution.width, 1024, 150);
+  std::size_t compared = 0;
+  const double error = wall.closeUpError(compared);
+  std::cout << "close-up: " << error << " px at most from the calibration, of " << compared << " pixels\n";
+  EXPECT_GT(compared, 20'000U);
+  EXPECT_LE(error, 0.1);
   const glm::dvec2 inInset = wall.middleOf(kInset);
   for (const double stripe : {2.0, 1.2}) {
     wall.setStripe(stripe);

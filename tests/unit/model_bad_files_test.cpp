@@ -1,4 +1,6 @@
 // Bad models: an error or a named warning, and never the end of the program.
+#include <sys/resource.h>
+
 #include <cmath>
 
 #include "devices/image/png_file.h"
@@ -60,7 +62,11 @@ TEST_F(ModelBadFilesTest, ABillionClaimedVerticesCostNothing) {
   EXPECT_THAT(failure("buffer.gltf", gltfOf(3, R"({"byteLength":99000000000})")), HasSubstr("buffer.gltf"));
   EXPECT_THAT(failure("huge.txt.ply", "ply\nformat ascii 1.0\n" + plyHeader(1'000'000'000, 1) + "0 0 0\n"),
               HasSubstr("1000000000 of vertex"));
+  EXPECT_THAT(failure("indices.obj", kCube + "f 1 2 1000000000\n"), HasSubstr("indices.obj"));
   EXPECT_THAT(failure("more.ply", binaryPly(plyHeader(18'446'744'073'709'551'615U, 3), "x")), HasSubstr("more.ply"));
+  rusage readers{};
+  ::getrusage(RUSAGE_CHILDREN, &readers);
+  EXPECT_LT(readers.ru_maxrss, 500'000) << "KiB";
 }
 
 /// A model alone in a folder, beside which lies what it must not reach.
