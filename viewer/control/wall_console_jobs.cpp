@@ -109,9 +109,13 @@ int WallConsole::planPreset(const std::string& name) {
     PresetSession session = parts_->presetSession(view);
     const calib::Preset preset = calib::loadPreset(folder_, name);
     const auto plan = session.prepare(preset);
-    for (const auto& step : plan) view.say(textOf(step));
     const bool calibrates = preset.calibration && !calib::isCalibrationInUse(folder_, *preset.calibration);
-    if (calibrates) view.say("calibration  the preset's");
+    for (const PresetStage stage : kPresetStages) {
+      if (stage == PresetStage::kCalibration && calibrates) view.say("calibration  the preset's");
+      for (const auto& step : plan) {
+        if (step.stage == stage) view.say(textOf(step));
+      }
+    }
     if (plan.empty() && !calibrates) view.say("all is as " + name + " has it");
     throwErrors(session.outcomes());
   });

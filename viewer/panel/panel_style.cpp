@@ -56,8 +56,8 @@ void setColours() {
   }
   setColour(ImGuiCol_ButtonActive, Colours::kAccentDeep);
   setColour(ImGuiCol_CheckMark, Colours::kAccent);
-  setColour(ImGuiCol_SliderGrab, Colours::kAccent);
-  setColour(ImGuiCol_SliderGrabActive, Colours::kText);
+  setColour(ImGuiCol_SliderGrab, 0);  // bars are filled up to their value
+  setColour(ImGuiCol_SliderGrabActive, Colours::kAccent);
   setColour(ImGuiCol_Header, panelColour(0x3D8BFD, 70));
   setColour(ImGuiCol_HeaderHovered, panelColour(0x3D8BFD, 100));
   setColour(ImGuiCol_HeaderActive, panelColour(0x3D8BFD, 130));

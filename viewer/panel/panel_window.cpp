@@ -15,6 +15,8 @@ namespace {
 
 // Menus and tool tips take some frames to find their size.
 constexpr int kFramesAfterInput = 4;
+// Hints come when the pointer rests.
+constexpr std::chrono::milliseconds kRest{600};
 
 }  // namespace
 
@@ -61,8 +63,15 @@ PanelWindow::~PanelWindow() {
   ImGui::DestroyContext();
 }
 
+bool PanelWindow::needsFrame() const {
+  const bool rests = !rested_ && std::chrono::steady_clock::now() - touched_ > kRest;
+  return framesLeft_ > 0 || input_.waits() || rests;
+}
+
 void PanelWindow::touch() {
   framesLeft_ = kFramesAfterInput;
+  touched_ = std::chrono::steady_clock::now();
+  rested_ = false;
 }
 
 void PanelWindow::frame(const std::function<void()>& draw) {
@@ -72,7 +81,8 @@ void PanelWindow::frame(const std::function<void()>& draw) {
   const std::chrono::duration<float> passed = now - std::exchange(drawn_, now);
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(size.width), static_cast<float>(size.height)};
-  io.DeltaTime = std::clamp(passed.count(), 0.001F, 0.1F);
+  io.DeltaTime = std::clamp(passed.count(), 0.001F, 1.0F);
+  rested_ = rested_ || now - touched_ > kRest;
   framesLeft_ = std::max(0, framesLeft_ - 1);
   input_.apply();
   ImGui_ImplOpenGL3_NewFrame();

@@ -26,7 +26,7 @@ class PanelWindow {
   /// Shows a frame; `draw` says what is in it.
   void frame(const std::function<void()>& draw);
   /// Something has happened that the last frames do not show.
-  [[nodiscard]] bool needsFrame() const { return framesLeft_ > 0 || input_.waits(); }
+  [[nodiscard]] bool needsFrame() const;
   [[nodiscard]] bool closed() const { return closed_; }
   /// What the last frame shows.
   [[nodiscard]] devices::Image8 picture();
@@ -39,6 +39,8 @@ class PanelWindow {
   std::function<bool(const devices::KeyStroke& stroke)> shortcut_;
   PanelInput input_;
   std::chrono::steady_clock::time_point drawn_;
+  std::chrono::steady_clock::time_point touched_;
+  bool rested_ = false;  // drawn once more, with hints, since the last input
   int framesLeft_ = 0;
   bool closed_ = false;
 };

@@ -43,7 +43,11 @@ bool panelButton(PanelContext& panel, const std::string& name, const std::string
 }
 
 void panelHint(const std::string& text) {
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", text.c_str());
+  constexpr float kRest = 0.5F;  // seconds
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  const bool isControl = context.HoveredId != 0;
+  if (!isControl || context.HoveredIdTimer >= kRest) ImGui::SetTooltip("%s", text.c_str());
 }
 
 void dimText(const std::string& text) {

@@ -90,9 +90,9 @@ void runWindow(WallConsole& console, Panel& panel, const Options& options, const
     const bool idle = !window.needsFrame() && !panel.isPending() && panel.revision() == shown;
     if (idle && options.screenshot.empty()) continue;
     shown = panel.revision();
-    const auto begun = FrameTimes::Clock::now();
+    times.begin();
     window.frame([&] { panel.draw(); });
-    times.add(begun, FrameTimes::Clock::now());
+    times.end();
     if (options.screenshot.empty() || !settled(*console.snapshot(), panel)) continue;
     devices::writePng(options.screenshot, window.picture(), devices::PngEffort::kSmall);
     break;
