@@ -31,7 +31,7 @@ constexpr std::string_view kPage = R"page(<!doctype html>
   <div class="row"><button data-path="halt" class="stop">STOP ALL</button></div>
   <h2>Presets</h2>
   <div id="presets" class="row"></div>
-  <h2>Under way</h2>
+  <h2>Orders</h2>
   <ul id="jobs"></ul>
   <h2>Devices</h2>
   <table><tbody id="devices"></tbody></table>
@@ -112,8 +112,9 @@ function deviceRow(device) {
 
 function jobLine(job) {
   const part = job.part === null ? '' : ' ' + Math.round(100 * job.part) + ' %';
-  return make('li', job.state === 'failed' ? job.error : job.command.replace(/^pixelflex /, '') + ': ' +
-    (job.state === 'done' ? 'done' : (job.doing || 'running') + part), job.state === 'failed' ? 'bad' : '');
+  const what = job.command.replace(/^pixelflex (\S+) ('[^']*'|\S+)/, '$1');
+  const came = {done: 'done', failed: job.error}[job.state] || (job.doing || 'running') + part;
+  return make('li', what + ': ' + came, job.state === 'failed' ? 'bad' : '');
 }
 
 function presetButton(preset, chosen) {
