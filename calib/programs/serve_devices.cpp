@@ -27,6 +27,10 @@ std::unique_ptr<devices::SimulatedDevice> simulatorOf(const WallDevice& device, 
   }
   const std::string password = passwordOf(device);
   if (device.line.driver == "pjlink") return devices::makePjlinkSimulator({.password = password});
+  if (device.line.driver == "hitachi-beef") {
+    const bool network = device.line.at.ends_with(":9715");
+    return devices::makeHitachiBeefSimulator({.network = network, .password = network ? password : ""});
+  }
   return devices::makeSimulator(device.line.driver);
 }
 

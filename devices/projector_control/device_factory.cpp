@@ -27,6 +27,10 @@ std::unique_ptr<Device> infocus(LineLoop& loop, const LineAddress& address, cons
   return makeInfocus(loop, address, request.name, request.infocusGap);
 }
 
+std::unique_ptr<Device> hitachiBeef(LineLoop& loop, const LineAddress& address, const DeviceRequest& request) {
+  return makeHitachiBeef(loop, address, request.name, request.password);
+}
+
 std::unique_ptr<Device> pjlink(LineLoop& loop, const LineAddress& address, const DeviceRequest& request) {
   return makePjlink(loop, address, request.name, request.password);
 }
@@ -34,7 +38,7 @@ std::unique_ptr<Device> pjlink(LineLoop& loop, const LineAddress& address, const
 constexpr std::array kDrivers = {Driver{"ptu", 9600, plain<makePanTiltDevice>},
                                  Driver{"hitachi-legacy", 9600, plain<makeHitachiLegacy>},
                                  Driver{"proxima-dp6850", 9600, plain<makeHitachiLegacy>},
-                                 Driver{"hitachi-beef", 19200, plain<makeHitachiBeef>},
+                                 Driver{"hitachi-beef", 19200, hitachiBeef},
                                  Driver{"pjlink", 9600, pjlink},
                                  Driver{"escvp21", 9600, plain<makeEscVp21>},
                                  Driver{"infocus", 19200, infocus}};

@@ -17,7 +17,7 @@ struct DeviceRequest {
   std::string name;           // "p1.control", for messages
   std::string driver;         // one of deviceDrivers()
   std::string at;             // see parseLineAddress()
-  std::string password = {};  // for pjlink
+  std::string password = {};  // for pjlink and hitachi-beef
   std::chrono::milliseconds infocusGap = std::chrono::seconds(3);
 };
 

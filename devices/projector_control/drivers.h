@@ -16,9 +16,10 @@ class LineLoop;
 [[nodiscard]] std::unique_ptr<Device> makeHitachiLegacy(LineLoop& loop, const LineAddress& address,
                                                         const std::string& name);
 
-/// "BE EF" frames: Hitachi, Maxell, Christie LX and LW from 2001 on. 19200 8N1, or TCP port 23.
+/// "BE EF" frames: Hitachi, Maxell, Christie LX and LW from 2001 on. 19200 8N1, or TCP port 23,
+/// or TCP port 9715, where `password` is used if the projector asks for one.
 [[nodiscard]] std::unique_ptr<Device> makeHitachiBeef(LineLoop& loop, const LineAddress& address,
-                                                      const std::string& name);
+                                                      const std::string& name, const std::string& password = {});
 
 /// Epson's ESC/VP21. 9600 8N1, or TCP port 3629.
 [[nodiscard]] std::unique_ptr<Device> makeEscVp21(LineLoop& loop, const LineAddress& address, const std::string& name);

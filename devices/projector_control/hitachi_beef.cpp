@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "devices/projector_control/beef_frame.h"
+#include "devices/projector_control/beef_link.h"
 #include "devices/projector_control/drivers.h"
 #include "devices/projector_control/projector_driver.h"
 
@@ -15,7 +16,6 @@ using Byte = unsigned char;
 using Operation = BeefOperation;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kTimeout{1000};
 constexpr milliseconds kGap{40};
 constexpr int kMotorSteps = 255;
 constexpr char kAcknowledged = 0x06;
@@ -68,21 +68,12 @@ std::string wordOf(const auto& list, int code) {
   return found == list.end() ? "code " + std::to_string(code) : std::string(found->name);
 }
 
-std::optional<std::size_t> endOfReply(std::string_view received) {
-  for (std::size_t i = 0; i < received.size(); ++i) {
-    const char first = received[i];
-    if (first == kAcknowledged || first == kNotUnderstood) return i + 1;
-    const bool known = first == kRefused || first == kData || first == kBusy;
-    if (known && i + 3 <= received.size()) return i + 3;
-    if (known) return std::nullopt;
-  }
-  return std::nullopt;
-}
-
 class HitachiBeef : public ProjectorDriver {
  public:
-  HitachiBeef(LineLoop& loop, const LineAddress& address, const std::string& name)
-      : ProjectorDriver(loop, address, name, {.device = name, .gap = kGap}) {}
+  HitachiBeef(LineLoop& loop, const LineAddress& address, const std::string& name, const std::string& password)
+      : ProjectorDriver(loop, address, name, {.device = name, .idleClose = idleCloseOf(address), .gap = kGap}),
+        link_(line(), password),
+        hasPassword_(!password.empty()) {}
 
  protected:
   std::string doIdentity() override {
@@ -220,13 +211,11 @@ class HitachiBeef : public ProjectorDriver {
 
   /// The reply from its first byte on. A frame that arrived damaged is sent again.
   std::string ask(Operation operation, std::uint16_t type, int value) {
-    const Exchange exchange = {
-        .bytes = beefFrame(operation, type, static_cast<std::uint16_t>(value)), .end = endOfReply, .timeout = kTimeout};
+    const std::string frame = beefFrame(operation, type, static_cast<std::uint16_t>(value));
     // Steps that may have been made are not made again.
     const bool steps = operation == Operation::kIncrement || operation == Operation::kDecrement;
     for (int attempt = 1; true; ++attempt) {
-      std::string reply = steps ? line().ask(exchange) : askTwice(exchange);
-      reply.erase(0, reply.find_first_of("\x06\x15\x1C\x1D\x1F"));
+      std::string reply = link_.ask(frame, !steps);
       const bool again = reply.front() == kNotUnderstood || !answers(operation, reply);
       if (!again) return reply;
       if (attempt > 1) complain("it does not understand: is something wrong with the line?");
@@ -252,7 +241,9 @@ class HitachiBeef : public ProjectorDriver {
   }
 
   [[noreturn]] void refused(const std::string& reply, const std::string& what) {
-    if (reply.front() == kBusy && reply[1] == 4) complain("it asks for a password, which this protocol is given none");
+    if (reply.front() == kBusy && reply[1] == 4) {
+      complain(hasPassword_ ? "it refuses the password" : "it asks for a password: give control a password_file");
+    }
     if (reply.front() == kBusy) complain(what + ": it is busy: try again later");
     complain(what + ": it cannot do that now: is it switched on?");
   }
@@ -281,6 +272,14 @@ class HitachiBeef : public ProjectorDriver {
     waitUntil([&] { return get(0x6020, "errors") >= 0; }, kLampTime, progress, "warming up");
   }
 
+  /// Before the projector does it, 30 s after the last command, and a command gets lost.
+  static milliseconds idleCloseOf(const LineAddress& address) {
+    const bool isNetwork = address.kind == LineKind::kTcp && address.port == BeefLink::kNetworkPort;
+    return isNetwork ? milliseconds(20'000) : milliseconds(0);
+  }
+
+  BeefLink link_;
+  bool hasPassword_;
   std::vector<SettingInfo> found_;
   bool shutter_ = true;
   bool knowsShutter_ = false;
@@ -288,8 +287,9 @@ class HitachiBeef : public ProjectorDriver {
 
 }  // namespace
 
-std::unique_ptr<Device> makeHitachiBeef(LineLoop& loop, const LineAddress& address, const std::string& name) {
-  return std::make_unique<HitachiBeef>(loop, address, name);
+std::unique_ptr<Device> makeHitachiBeef(LineLoop& loop, const LineAddress& address, const std::string& name,
+                                        const std::string& password) {
+  return std::make_unique<HitachiBeef>(loop, address, name, password);
 }
 
 }  // namespace pixelflex::devices

@@ -1,6 +1,10 @@
+#include <gnutls/crypto.h>
+#include <gnutls/gnutls.h>
+
 #include <array>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "devices/simulate/projector_simulator.h"
 
@@ -10,6 +14,8 @@ namespace {
 using Byte = unsigned char;
 
 constexpr std::size_t kFrame = 13;
+// As a manual's example has it.
+constexpr std::string_view kRandom = "a572f60c";
 constexpr std::string_view kHead = "\xBE\xEF";
 constexpr int kMost = 255;
 enum Operation { kSet = 1, kGet = 2, kIncrement = 4, kDecrement = 5, kExecute = 6 };
@@ -26,11 +32,21 @@ unsigned checkSum(const std::string& frame) {
 
 class HitachiBeefSimulator : public ProjectorSimulator {
  public:
-  HitachiBeefSimulator() { state().input = 3; }
+  explicit HitachiBeefSimulator(HitachiBeefSimulatorOptions options) : options_(std::move(options)) {
+    state().input = 3;
+  }
+
+  void connected(Time now) override {
+    typed_.clear();
+    forgetOutput();
+    isIn_ = options_.password.empty();
+    if (!isIn_) say(std::string(kRandom), now);
+  }
 
   void receive(std::string_view bytes, Time now) override {
     advance(now);
     typed_ += bytes;
+    if (options_.network) return receiveWrapped(now);
     while (!typed_.empty()) {
       const auto head = typed_.find(kHead);
       if (head == std::string::npos) {
@@ -53,8 +69,8 @@ class HitachiBeefSimulator : public ProjectorSimulator {
   void obey(const std::string& frame, Time now) {
     const unsigned sum = checkSum(frame);
     const bool sound = static_cast<Byte>(frame[5]) == sum >> 8U && static_cast<Byte>(frame[6]) == (sum & 255U);
-    if (!sound || suffers(Fault::kGarble)) return say("\x15", now);
-    if (suffers(Fault::kBusy)) return say(std::string("\x1F\x01\x00", 3), now);
+    if (!sound || suffers(Fault::kGarble)) return reply("\x15", now);
+    if (suffers(Fault::kBusy)) return reply(std::string("\x1F\x01\x00", 3), now);
     const int operation = word(frame, 7);
     const int type = word(frame, 9);
     if (type == 0x6000) return power(operation, word(frame, 11), now);
@@ -65,10 +81,49 @@ class HitachiBeefSimulator : public ProjectorSimulator {
     change(operation, type, word(frame, 11), now);
   }
 
-  void refuse(Time now) { say(std::string("\x1C\x00\x00", 3), now); }
-  void confirm(Time now) { say("\x06", now); }
+  /// 02 0D, a frame, a check sum, a number; before the first of them a digest where one is asked for.
+  void receiveWrapped(Time now) {
+    constexpr std::size_t kDigest = 32;
+    constexpr std::size_t kWrapped = kFrame + 4;
+    while (true) {
+      const bool hasDigest = !isIn_ && !typed_.empty() && typed_[0] != '\x02';
+      const std::size_t skip = hasDigest ? kDigest : 0;
+      if (typed_.size() < skip + kWrapped) return;
+      if (hasDigest) isIn_ = typed_.substr(0, kDigest) == digestOf(std::string(kRandom) + options_.password);
+      const std::string packet = typed_.substr(skip, kWrapped);
+      typed_.erase(0, skip + kWrapped);
+      number_ = packet.back();
+      unsigned sum = 0;
+      for (std::size_t i = 0; i + 1 < packet.size(); ++i) sum += static_cast<Byte>(packet[i]);
+      if (!isIn_) {
+        reply(std::string("\x1F\x04\x00", 3), now);
+      } else if (!packet.starts_with("\x02\x0D") || sum % 256 != 0) {
+        reply("\x15", now);
+      } else {
+        obey(packet.substr(2, kFrame), now);
+      }
+    }
+  }
+
+  static std::string digestOf(const std::string& text) {
+    std::array<Byte, 16> bytes{};
+    gnutls_hash_fast(GNUTLS_DIG_MD5, text.data(), text.size(), bytes.data());
+    std::string digits;
+    for (const Byte byte : bytes) {
+      digits += "0123456789abcdef"[byte >> 4U];
+      digits += "0123456789abcdef"[byte & 15U];
+    }
+    return digits;
+  }
+
+  void reply(std::string bytes, Time now) {
+    if (options_.network) bytes += number_;
+    say(bytes, now);
+  }
+  void refuse(Time now) { reply(std::string("\x1C\x00\x00", 3), now); }
+  void confirm(Time now) { reply("\x06", now); }
   void answer(int value, Time now) {
-    say(std::string{'\x1D', static_cast<char>(value & 255), static_cast<char>(value >> 8U)}, now);
+    reply(std::string{'\x1D', static_cast<char>(value & 255), static_cast<char>(value >> 8U)}, now);
   }
 
   void power(int operation, int value, Time now) {
@@ -157,14 +212,17 @@ class HitachiBeefSimulator : public ProjectorSimulator {
     return type == 0x2408 || type == 0x2409;
   }
 
+  HitachiBeefSimulatorOptions options_;
   std::string typed_;
+  char number_ = 0;  // of the packet that is answered
+  bool isIn_ = true;
   int memory_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<ProjectorSimulator> makeHitachiBeefSimulator() {
-  return std::make_unique<HitachiBeefSimulator>();
+std::unique_ptr<ProjectorSimulator> makeHitachiBeefSimulator(const HitachiBeefSimulatorOptions& options) {
+  return std::make_unique<HitachiBeefSimulator>(options);
 }
 
 }  // namespace pixelflex::devices

@@ -20,8 +20,12 @@ class ProjectorSimulator : public SimulatedDevice {
 
 /// Hitachi's two-byte protocol of 1998 to 2001 (CP-X955 and family).
 [[nodiscard]] std::unique_ptr<ProjectorSimulator> makeHitachiLegacySimulator();
+struct HitachiBeefSimulatorOptions {
+  bool network = false;       // wrapped, as at TCP port 9715
+  std::string password = {};  // there; empty: without authentication
+};
 /// Hitachi's and Christie's "BE EF" frames.
-[[nodiscard]] std::unique_ptr<ProjectorSimulator> makeHitachiBeefSimulator();
+[[nodiscard]] std::unique_ptr<ProjectorSimulator> makeHitachiBeefSimulator(const HitachiBeefSimulatorOptions& options);
 /// Epson's ESC/VP21, with the ESC/VP.net greeting where a client begins with it.
 [[nodiscard]] std::unique_ptr<ProjectorSimulator> makeEscVp21Simulator();
 /// InFocus' and Proxima's "(PWR1)".

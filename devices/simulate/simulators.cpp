@@ -53,6 +53,14 @@ std::unique_ptr<SimulatedDevice> makeProjector(Options& options) {
   return projector;
 }
 
+std::unique_ptr<SimulatedDevice> makeBeef(Options& options) {
+  HitachiBeefSimulatorOptions how{.network = takeNumber(options, "network", 0) != 0};
+  if (const auto node = options.extract("password"); !node.empty()) how.password = node.mapped();
+  auto projector = makeHitachiBeefSimulator(how);
+  setUp(*projector, options);
+  return projector;
+}
+
 std::unique_ptr<SimulatedDevice> makePjlink(Options& options) {
   PjlinkSimulatorOptions how{.pjlinkClass = takeNumber(options, "class", 2),
                              .sha256 = takeNumber(options, "sha256", 1) != 0};
@@ -65,7 +73,7 @@ std::unique_ptr<SimulatedDevice> makePjlink(Options& options) {
 constexpr std::array kKinds = {Kind{"ptu", makePanTilt},
                                Kind{"hitachi-legacy", makeProjector<makeHitachiLegacySimulator>},
                                Kind{"proxima-dp6850", makeProjector<makeHitachiLegacySimulator>},
-                               Kind{"hitachi-beef", makeProjector<makeHitachiBeefSimulator>},
+                               Kind{"hitachi-beef", makeBeef},
                                Kind{"pjlink", makePjlink},
                                Kind{"escvp21", makeProjector<makeEscVp21Simulator>},
                                Kind{"infocus", makeProjector<makeInfocusSimulator>}};

@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -98,6 +101,62 @@ TEST(HitachiBeef, TurnsTheLensAndRecallsIt) {
   bench.set("lens_memory", 2);
   EXPECT_EQ(bench.state().lens.zoom.place, 77);
   EXPECT_EQ(bench.value("lens_memory"), "2");
+}
+
+/// A projector at the network port of an address that no other process uses.
+class NetworkBeef {
+ public:
+  NetworkBeef(const std::string& theirPassword, const std::string& ourPassword) {
+    const int id = ::getpid();
+    const std::string host = "127." + std::to_string(1 + id / 65536 % 250) + "." + std::to_string(id / 256 % 256) +
+                             "." + std::to_string(id % 256);
+    const std::string at = "tcp://" + host + ":9715";
+    host_.add("p1", devices::makeHitachiBeefSimulator({.network = true, .password = theirPassword}),
+              devices::parseLineAddress(at));
+    device_ =
+        devices::makeDevice(loop_, {.name = "p1.control", .driver = "hitachi-beef", .at = at, .password = ourPassword});
+  }
+  [[nodiscard]] devices::Device& device() { return *device_; }
+  [[nodiscard]] devices::DeviceHost& host() { return host_; }
+
+ private:
+  devices::DeviceHost host_;
+  devices::LineLoop loop_;
+  std::unique_ptr<devices::Device> device_;
+};
+
+TEST(HitachiBeef, IsWrappedAtItsNetworkPort) {
+  NetworkBeef open("", "");
+  open.device().write("brightness", 70.0);
+  EXPECT_EQ(devices::textOf(open.device().read("brightness")), "70");
+  open.host().order("p1", devices::Fault::kCut);
+  EXPECT_NE(complaintOf([&] { (void)open.device().read("brightness"); }), "");
+  open.host().heal("p1");
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!complaintOf([&] { (void)open.device().read("power"); }).empty()) {
+    ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+  }
+  EXPECT_EQ(devices::textOf(open.device().read("brightness")), "70");
+}
+
+TEST(HitachiBeef, ProvesThatItKnowsThePassword) {
+  NetworkBeef guarded("sesame", "sesame");
+  guarded.device().write("input", std::string("hdmi2"));
+  EXPECT_EQ(devices::textOf(guarded.device().read("input")), "hdmi2");
+}
+
+TEST(HitachiBeef, SaysWhenThePasswordIsMissingOrWrong) {
+  {
+    NetworkBeef stranger("sesame", "");
+    EXPECT_THAT(complaintOf([&] { (void)stranger.device().read("power"); }), HasSubstr("give control a password_file"));
+  }
+  NetworkBeef stranger("sesame", "simsim");
+  EXPECT_THAT(complaintOf([&] { (void)stranger.device().read("power"); }), HasSubstr("it refuses the password"));
+}
+
+TEST(HitachiBeef, APasswordThatNobodyAsksForDoesNoHarm) {
+  NetworkBeef open("", "sesame");
+  EXPECT_EQ(devices::textOf(open.device().read("power")), "on");
 }
 
 TEST(HitachiBeef, SwitchesOffAndOn) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "devices/projector_control/beef_frame.h"
+#include "devices/projector_control/beef_link.h"
 #include "devices/projector_control/pjlink_login.h"
 
 namespace pixelflex::testing {
@@ -32,6 +33,13 @@ TEST(BeefFrame, MakesTheFramesThatTheManualsPrint) {
 }
 
 // The vectors of the PJLink specifications, class 1 and version 2.10.
+TEST(BeefFrame, IsWrappedForTheNetwork) {
+  const std::string frame = bytesOf("BE EF 03 06 00 BA D2 01 00 00 60 01 00");
+  // BE + EF + 03 + 06 + BA + D2 + 01 + 60 + 01 + 02 + 0D is 3B3h, and 4D more is 400h.
+  EXPECT_EQ(devices::wrappedBeefFrame(frame, 0x7F), bytesOf("02 0D BE EF 03 06 00 BA D2 01 00 00 60 01 00 4D 7F"));
+  EXPECT_EQ(devices::pjlinkMd5("a572f60c", "password"), "e3d97429adffa11bce1f7275813d4bde") << "as a manual prints it";
+}
+
 TEST(PjlinkLogin, MakesTheDigestsThatTheSpecificationPrints) {
   EXPECT_EQ(devices::pjlinkMd5("498e4a67", "JBMIAProjectorLink"), "5d8409bc1c3fa39749434aa3a5c38682");
   EXPECT_EQ(devices::pjlinkSha256("3db25e10f69c47a85adb24cf361897e0", "c14b279e603d8a5f17e849ba360f2dc5",
