@@ -1,7 +1,6 @@
 // pixelflex calibrate WALL [STEP…]: measures the wall with a camera, or from photographs.
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -161,7 +160,9 @@ void recalibrate(const fs::path& folder, const Wall& wall, Arguments arguments) 
   if (arguments.only.empty()) {
     fmt::print("nothing has moved by more than {} px: nothing was measured again\n", *arguments.recalibrate);
   } else {
-    fmt::print("measured again: {}\n", fmt::join(arguments.only, ", "));
+    std::string names;
+    for (const auto& name : arguments.only) names += (names.empty() ? "" : ", ") + name;
+    fmt::print("measured again: {}\n", names);
     runProcedure(folder, wall, arguments);
   }
 }
