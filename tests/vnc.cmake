@@ -7,7 +7,8 @@ pixelflex_library(pixelflex_test_support
   PUBLIC pixelflex_image pixelflex_vnc
   PRIVATE PkgConfig::X11)
 
-pixelflex_test(vnc_e2e_test LABEL e2e TIMEOUT 120
+# e2e-threads: those that ThreadSanitizer runs as well.
+pixelflex_test(vnc_e2e_test LABEL e2e-threads TIMEOUT 120
   SOURCES e2e/vnc_cut_test.cpp e2e/vnc_link_test.cpp e2e/vnc_reconnect_test.cpp e2e/vnc_security_test.cpp e2e/vnc_xvnc_test.cpp
   LINK pixelflex_test_support)
 

@@ -34,7 +34,7 @@ class DesktopMirror {
   bool pumpUntilStill(std::chrono::milliseconds quiet = std::chrono::milliseconds(300),
                       std::chrono::milliseconds timeout = std::chrono::seconds(20));
   /// Waits until the desktop is equal to the screen of the X server, bit for bit.
-  bool pumpUntilEqual(const std::string& display, std::chrono::milliseconds timeout = std::chrono::seconds(20));
+  bool pumpUntilEqual(const std::string& display, std::chrono::milliseconds timeout = std::chrono::seconds(60));
 
   /// As of the last completed update: red, green, blue. Empty before the first.
   [[nodiscard]] const devices::Image8& desktop() const { return desktop_; }

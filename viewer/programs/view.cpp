@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <map>
 #include <stdexcept>
@@ -63,10 +64,17 @@ void checkFingerprint(const std::string& text) {
   throw std::invalid_argument("--tls-fingerprint " + text + ": a SHA-256 has 64 hexadecimal digits");
 }
 
+/// Where libXau looks by itself; unless it is named, it writes that into a buffer that all threads share.
+void nameXauthority() {
+  const char* const home = std::getenv("HOME");
+  if (home != nullptr) ::setenv("XAUTHORITY", (std::string(home) + "/.Xauthority").c_str(), 0);
+}
+
 }  // namespace
 }  // namespace pixelflex::viewer
 
 int main(int argc, char** argv) {
+  pixelflex::viewer::nameXauthority();
   pixelflex::viewer::ViewOptions options;
   CLI::App app{
       "Shows a desktop on the wall. SERVER is a VNC server, HOST:DISPLAY, HOST::PORT, [V6]::PORT or unix:PATH, or an X "
@@ -75,11 +83,9 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", PIXELFLEX_VERSION);
   app.footer(
       "In its windows, on whatever layout of the keyboard: Ctrl+Alt+Q ends it, Ctrl+Alt+S shows how long updates take "
-      "on "
-      "the first projector, Ctrl+Alt+G lets pointer and keyboard go, Ctrl twice shows where the pointer is.\n"
+      "on the first projector, Ctrl+Alt+G lets pointer and keyboard go, Ctrl twice shows where the pointer is.\n"
       "Where projectors are on several X displays, each display has a process of its own, which is started again when "
-      "it "
-      "fails; all write their statistics, the control window and the wish for another size are the first one's.");
+      "it fails; all write their statistics, the control window and the wish for another size are the first one's.");
   app.add_option("WALL", options.wall, "the wall's folder")->required();
   std::string server;
   app.add_option("SERVER", server, "the VNC server, or the X server of this machine")->required();
