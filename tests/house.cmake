@@ -1,5 +1,5 @@
 # What holds for the house as a whole: include arrows, formatting, shipped files, and the commands as users type them.
-pixelflex_test(house_test LABEL unit
+pixelflex_test(house_test LABEL unit TIMEOUT 300
   SOURCES unit/house_test.cpp support/process.cpp support/temporary_folder.cpp)
 
 pixelflex_test(config_test LABEL unit

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "calib/programs/command_line.h"
 #include "calib/store/store.h"
 #include "viewer/model/scene_file.h"
 #include "viewer/programs/model_headless.h"
@@ -115,19 +116,7 @@ int show(const ModelCommand& command) {
                             : runModelWindows(command, wall, std::move(scene));
 }
 
-}  // namespace
-}  // namespace pixelflex::viewer
-
-int main(int argc, char** argv) {
-  pixelflex::viewer::ModelCommand command;
-  pixelflex::viewer::Texts texts;
-  CLI::App app{"Shows 3D models on the wall: OBJ, PLY, STL, glTF and what else Assimp reads.", "pixelflex-model"};
-  app.set_version_flag("--version", PIXELFLEX_VERSION);
-  app.footer(
-      "In its windows: drag turns the model, with the right button or Shift it moves it, the wheel zooms; w s a d e q "
-      "fly, "
-      "arrows turn, f fits, Home goes back, l lines, x axes, c cuts (and [ ] move the cut), Escape or Ctrl+Alt+Q "
-      "ends.");
+void defineOptions(CLI::App& app, ModelCommand& command, Texts& texts) {
   app.add_option("WALL", command.wall, "the wall's folder")->required();
   app.add_option("FILE", command.files, "models, in common coordinates")->required();
   app.add_flag("--headless", command.headless, "draw without any window or X server (EGL)");
@@ -141,28 +130,37 @@ int main(int argc, char** argv) {
   app.add_flag("--track", command.track,
                "the viewer's place comes from standard input, \"X Y Z\" a line, as for --eye; windows follow it");
   app.add_option("--projectors", command.projectors, "only these projectors")->delimiter(',');
-  pixelflex::viewer::addDrawing(app, command, texts);
-  pixelflex::viewer::addView(app, command, texts);
-  try {
+  addDrawing(app, command, texts);
+  addView(app, command, texts);
+  app.footer(
+      "In its windows: drag turns the model, with the right button or Shift it moves it, the wheel zooms; w s a d e q "
+      "fly, "
+      "arrows turn, f fits, Home goes back, l lines, x axes, c cuts (and [ ] move the cut), Escape or Ctrl+Alt+Q "
+      "ends.");
+}
+
+void checkTogether(const ModelCommand& command) {
+  if ((command.headless || command.turntable > 0) && !command.screenshot) {
+    throw std::invalid_argument("--headless and --turntable need --screenshot DIR");
+  }
+  if (command.lookUp == LookUp::kRamp && (command.draw.passes != 1 || command.screenshot)) {
+    throw std::invalid_argument("--lut ramp is for windows of one pass");
+  }
+}
+
+}  // namespace
+}  // namespace pixelflex::viewer
+
+int main(int argc, char** argv) {
+  using namespace pixelflex;
+  CLI::App app("Shows 3D models on the wall: OBJ, PLY, STL, glTF and what else Assimp reads.", "pixelflex model");
+  viewer::ModelCommand command;
+  viewer::Texts texts;
+  viewer::defineOptions(app, command, texts);
+  const auto parse = [&] {
     app.parse(argc, argv);
-    pixelflex::viewer::take(texts, command);
-    if ((command.headless || command.turntable > 0) && !command.screenshot) {
-      throw std::invalid_argument("--headless and --turntable need --screenshot DIR");
-    }
-    if (command.lookUp == pixelflex::viewer::LookUp::kRamp && (command.draw.passes != 1 || command.screenshot)) {
-      throw std::invalid_argument("--lut ramp is for windows of one pass");
-    }
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "pixelflex-model: {}\n", error.what());
-    return 2;
-  }
-  try {
-    return pixelflex::viewer::show(command);
-  } catch (const std::exception& error) {
-    std::fflush(stdout);
-    fmt::print(stderr, "pixelflex-model: {}\n", error.what());
-    return 1;
-  }
+    viewer::take(texts, command);
+    viewer::checkTogether(command);
+  };
+  return calib::runCommand(app, parse, [&] { return viewer::show(command); });
 }
