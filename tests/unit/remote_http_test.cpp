@@ -267,15 +267,16 @@ TEST_F(RemoteHttpTest, APageIsServedWithAllThatItNeeds) {
 TEST_F(RemoteHttpTest, TellsTheLogFromANumberOn) {
   makeRoom(1);
   serveHttp();
-  console_->note("first");
-  console_->note("second");
+  (void)done(ask("POST", "/mute", R"({"on": true})"));
+  (void)done(ask("POST", "/mute", R"({"on": false})"));
   const Json log = ask("GET", "/log").json;
   ASSERT_GE(log.size(), 2U);
-  const auto& last = log.back();
-  EXPECT_EQ(last["text"], "second");
+  const Json& last = log.back();
+  EXPECT_THAT(last["text"].get<std::string>(), HasSubstr("mute=off"));
+  EXPECT_EQ(last["kind"], "command");
   const Json rest = ask("GET", "/log?after=" + std::to_string(last["number"].get<int>() - 1)).json;
   ASSERT_EQ(rest.size(), 1U);
-  EXPECT_EQ(rest[0]["text"], "second");
+  EXPECT_EQ(rest[0], last);
 }
 
 }  // namespace
