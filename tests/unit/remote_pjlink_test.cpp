@@ -7,6 +7,7 @@
 
 #include "calib/store/store.h"
 #include "devices/projector_control/device_factory.h"
+#include "devices/projector_control/pjlink_search.h"
 #include "devices/transport/line_loop.h"
 #include "tests/support/udp_talk.h"
 #include "tests/unit/remote_room.h"
@@ -265,6 +266,24 @@ TEST_F(RemotePjlinkTest, IsFoundBySearchAndTellsOfChanges) {
 
 std::string okTo(char /*itsClass*/, std::string_view /*body*/, std::string_view /*value*/) {
   return "OK";
+}
+
+TEST_F(RemotePjlinkTest, OurOwnSearchFindsIt) {
+  makePjlinkRoom(1);
+  servePjlink();
+  std::vector<devices::PjlinkFound> found;
+  std::stop_source stop;
+  const devices::PjlinkSearch search{.hosts = {"127.0.0.1", "127.0.0.1"},
+                                     .port = control_->pjlink()->port,
+                                     .patience = std::chrono::seconds(60),
+                                     .stop = stop.get_token()};
+  devices::searchPjlink(search, [&](const auto& device) {
+    found.push_back(device);
+    stop.request_stop();
+  });
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].host, "127.0.0.1");
+  EXPECT_EQ(found[0].hardware, ask("%2SNUM ?"));
 }
 
 TEST(PjlinkServer, ClosesWhoSaysNothing) {

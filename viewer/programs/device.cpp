@@ -15,6 +15,7 @@
 #include "calib/programs/command_line.h"
 #include "calib/store/store.h"
 #include "calib/store/wall_devices.h"
+#include "devices/projector_control/pjlink_search.h"
 #include "devices/transport/line_loop.h"
 #include "viewer/control/device_command.h"
 #include "viewer/control/device_run.h"
@@ -31,6 +32,7 @@ struct DeviceOptions {
   std::vector<std::string> steps;
   bool json = false;
   bool quiet = false;
+  bool search = false;
   bool lists = true;  // without a name
 };
 
@@ -83,12 +85,28 @@ int runDevice(const DeviceOptions& options, const std::vector<DeviceJob>& jobs) 
   return failed || quit.raised() ? 1 : 0;
 }
 
+/// As they answer.
+int searchNetwork() {
+  std::stop_source stop;
+  const QuitSignal quit([&] { stop.request_stop(); });
+  int count = 0;
+  devices::searchPjlink({.stop = stop.get_token()}, [&](const devices::PjlinkFound& device) {
+    fmt::print("{}  {}  control: {{driver: pjlink, at: \"tcp://{}:4352\"}}\n", device.host, device.hardware,
+               device.host);
+    std::fflush(stdout);
+    ++count;
+  });
+  if (count == 0) fmt::print("no projector answered; only those of PJLink class 2 do\n");
+  return quit.raised() ? 1 : 0;
+}
+
 void defineOptions(CLI::App& app, DeviceOptions& options) {
-  app.add_option("WALL", options.wall, "The wall's folder")->required();
+  app.add_option("WALL", options.wall, "The wall's folder");
   auto* names = app.add_option("NAME", options.names,
                                "all, or projectors and their devices: p1,p2.mirror; without it all are listed");
   app.add_option("SETTING", options.steps, "What to read (SETTING), set (=VALUE), step (+=N, -=N) or do");
   app.add_flag("--json", options.json, "Print JSON");
+  app.add_flag("--search", options.search, "Look for PJLink projectors on the network, and say what to write for them");
   app.add_flag("--quiet", options.quiet, "Do not tell how far slow settings are");
   app.footer(
       "Mirrors:    pan tilt (degrees), pan_counts tilt_counts, pan_speed tilt_speed, pan_acceleration\n"
@@ -100,6 +118,7 @@ void defineOptions(CLI::App& app, DeviceOptions& options) {
       "            pixelflex device WALL p1 pan=12.5 tilt=-3      aims p1's mirror; returns when it is there\n"
       "            pixelflex device WALL p1,p2 brightness+=5 mute=off\n"
       "            pixelflex device WALL all halt                 stops every mirror\n"
+      "            pixelflex device --search                      PJLink projectors on the network\n"
       "Devices work at the same time. A signal halts what moves; so does a watchdog when this program is killed.");
   app.callback([&options, names] { options.lists = names->empty(); });
 }
@@ -115,7 +134,11 @@ int main(int argc, char** argv) {
   std::vector<viewer::DeviceJob> jobs;
   const auto parse = [&] {
     app.parse(argc, argv);
+    if (options.search && options.wall.empty()) return;
+    if (options.search) throw std::invalid_argument("--search looks at the network, not at a wall: leave the rest out");
+    if (options.wall.empty()) throw CLI::RequiredError("WALL");
     jobs = viewer::planDevices(viewer::devicesIn(options.wall), options.names, options.steps);
   };
-  return calib::runCommand(app, parse, [&] { return viewer::runDevice(options, jobs); });
+  return calib::runCommand(app, parse,
+                           [&] { return options.search ? viewer::searchNetwork() : viewer::runDevice(options, jobs); });
 }
