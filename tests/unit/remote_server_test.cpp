@@ -38,7 +38,14 @@ class HttpServerTest : public ::testing::Test {
     talk.send(bytes);
     return talk.readAll();
   }
-  [[nodiscard]] bool isWell() const { return httpExchange(port(), "GET", "/x").find("GET /x ") != std::string::npos; }
+  /// Soon.
+  [[nodiscard]] bool isWell() const {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (httpExchange(port(), "GET", "/x").find("GET /x ") == std::string::npos) {
+      if (std::chrono::steady_clock::now() > deadline) return false;
+    }
+    return true;
+  }
 
   devices::LineLoop loop_;
   std::optional<viewer::HttpServer> server_;
