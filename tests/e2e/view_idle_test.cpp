@@ -54,7 +54,7 @@ void expectIdle(const std::string& wall, const std::string& address, std::vector
   std::cout << "10 s idle: " << used * 1000 << " ms of processor time\n";
   EXPECT_EQ(countOf(textOf(options.log), "stats:"), countOf(before, "stats:"));
   viewer.signal(SIGTERM);
-  EXPECT_EQ(viewer.wait(5s), 0);
+  EXPECT_EQ(viewer.wait(60s), 0);
 }
 
 TEST(ViewIdle, AHeadlessWallSleeps) {

@@ -87,7 +87,7 @@ TEST_F(ResizeTest, ANewCalibrationIsShownWhileTheOldOneIs) {
   // sRGB's code of a quarter of the light.
   const devices::Image8 frame = devices::readPng8(folder_ / "shot/p1.png");
   for (const auto& [x, y] : {std::pair{0, 0}, std::pair{160, 120}, std::pair{319, 239}}) {
-    EXPECT_NEAR(frame.at(x, y, 1), 137, 1) << x << ", " << y;
+    EXPECT_NEAR(frame.at(x, y, 1), 137, 1) << x << ", " << y << "\n" << log();
   }
 }
 

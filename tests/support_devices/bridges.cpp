@@ -45,7 +45,8 @@ void waitForPort(int port) {
 Bridge::Bridge(Kind kind, const std::string& serialDevice) : kind_(kind), port_(freePort()) {
   std::vector<std::string> command;
   if (kind == Kind::kSocat) {
-    command = {"socat", "TCP-LISTEN:" + std::to_string(port_) + ",bind=127.0.0.1,reuseaddr,fork",
+    // Two connections at one device, the old one lingering, would share what it says.
+    command = {"socat", "-t0", "TCP-LISTEN:" + std::to_string(port_) + ",bind=127.0.0.1,reuseaddr,fork",
                "FILE:" + serialDevice + ",b9600,raw,echo=0"};
   } else {
     const auto settings = folder_ / "ser2net.yaml";

