@@ -84,12 +84,12 @@ GigeRegisters::~GigeRegisters() = default;
 
 std::uint32_t GigeRegisters::read(std::uint32_t address) const {
   const std::scoped_lock lock(mutex_);
-  return address + 4 <= kDescription ? bank_->read(address) : 0;
+  return address <= kDescription - 4 ? bank_->read(address) : 0;
 }
 
 void GigeRegisters::write(std::uint32_t address, std::uint32_t value) {
   const std::scoped_lock lock(mutex_);
-  if (address + 4 < kDescription) arv_fake_camera_write_register(bank_->camera, address, value);
+  if (address < kDescription - 4) arv_fake_camera_write_register(bank_->camera, address, value);
 }
 
 std::optional<Bytes> GigeRegisters::readBlock(std::uint32_t address, std::uint32_t size) const {

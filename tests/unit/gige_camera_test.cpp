@@ -17,6 +17,7 @@
 #include "devices/camera/aravis_camera.h"
 #include "devices/camera/camera_error.h"
 #include "devices/camera/cameras.h"
+#include "devices/serve/gige_registers.h"
 #include "tests/support/process.h"
 #include "tests/support_devices/gige_place.h"
 
@@ -154,6 +155,16 @@ TEST_F(GigeCameraTest, ProgramsOfOthersStreamFromIt) {
   std::smatch completed;
   ASSERT_TRUE(std::regex_search(output.text, completed, std::regex(R"(n_completed_buffers *= *(\d+))"))) << output.text;
   EXPECT_GE(std::stoi(completed[1]), 3) << output.text;
+}
+
+TEST(GigeRegisters, AddressesBeyondTheLastAreNobodys) {
+  devices::GigeRegisters registers("1", {64, 48}, "127.0.0.1");
+  for (const std::uint32_t address : {0xFFFFFFFCU, 0xFFFFFFFFU}) {
+    registers.write(address, 7);
+    EXPECT_EQ(registers.read(address), 0);
+    EXPECT_FALSE(registers.writeBlock(address, devices::Bytes(8)));
+    EXPECT_FALSE(registers.readBlock(address, 8));
+  }
 }
 
 /// A camera that was not made here. It can be at one address only, and says nothing when that is taken: then another
