@@ -80,6 +80,8 @@ void GigeCamera::Impl::receive(const UdpSocket& socket) {
   if (count <= 0) return;
   const auto request = parseGigeRequest(std::span(packet).first(static_cast<std::size_t>(count)));
   if (!request) return;
+  // Broadcasts come from every network of this machine, also to a camera that is served to itself only.
+  if (&socket == &search && request->command != GigeCommand::kDiscovery) return;
   const Bytes reply = answer(*request, from);
   if (!reply.empty()) control.send(reply, from);
 }

@@ -1,9 +1,13 @@
 #include "devices/serve/gige_camera.h"
 
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -18,6 +22,7 @@
 #include "devices/camera/camera_error.h"
 #include "devices/camera/cameras.h"
 #include "devices/serve/gige_registers.h"
+#include "devices/serve/gige_sender.h"
 #include "tests/support/process.h"
 #include "tests/support_devices/gige_place.h"
 
@@ -101,6 +106,52 @@ TEST_F(GigeCameraTest, IsFoundByItsNames) {
   EXPECT_TRUE(std::ranges::any_of(cameras, [&](const auto& info) {
     return info.address == "aravis:" + camera_->name() && info.model == "PixelFlex Room at " + place_.address;
   }));
+}
+
+/// Commands to every camera, and what one of them answers.
+class Broadcast {
+ public:
+  Broadcast() {
+    const int on = 1;
+    ::setsockopt(socket_.descriptor(), SOL_SOCKET, SO_BROADCAST, &on, sizeof on);
+  }
+  void send(devices::GigeCommand command, const devices::Bytes& data) const {
+    const auto code = static_cast<std::uint8_t>(command);
+    devices::Bytes packet{0x42, 1, 0, code, 0, static_cast<std::uint8_t>(data.size()), 0, 1};
+    packet.insert(packet.end(), data.begin(), data.end());
+    sockaddr_in all{};
+    all.sin_family = AF_INET;
+    all.sin_port = htons(3956);
+    all.sin_addr.s_addr = INADDR_BROADCAST;
+    socket_.send(packet, all);
+  }
+  /// What was answered from `address`; 0: nothing soon.
+  [[nodiscard]] int answerOf(const std::string& address) const {
+    pollfd waiting{socket_.descriptor(), POLLIN, 0};
+    while (::poll(&waiting, 1, 500) > 0) {
+      std::array<std::uint8_t, 2048> packet{};
+      sockaddr_in from{};
+      socklen_t length = sizeof from;
+      ::recvfrom(socket_.descriptor(), packet.data(), packet.size(), 0, reinterpret_cast<sockaddr*>(&from), &length);
+      if (from.sin_addr.s_addr == ::inet_addr(address.c_str())) return packet[3];
+    }
+    return 0;
+  }
+
+ private:
+  devices::UdpSocket socket_{"127.0.0.1", 0, false};
+};
+
+TEST_F(GigeCameraTest, BroadcastsFindItAndDoNothingElse) {
+  serve({64, 48});
+  const Broadcast broadcast;
+  int answer = 0;
+  for (int i = 0; i < 40 && answer == 0; ++i) {
+    broadcast.send(devices::GigeCommand::kReadRegister, {0, 0, 0x0a, 0});
+    broadcast.send(devices::GigeCommand::kDiscovery, {});
+    answer = broadcast.answerOf(place_.address);
+  }
+  EXPECT_EQ(answer, static_cast<int>(devices::GigeCommand::kDiscovery) + 1);
 }
 
 TEST_F(GigeCameraTest, OneProgramHasItAtATime) {
