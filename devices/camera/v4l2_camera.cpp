@@ -29,6 +29,7 @@ constexpr double kExposureUnit = 1e-4;  // seconds
 constexpr std::uint32_t kBuffers = 4;
 constexpr Seconds kPatience{5};     // for a frame, beside its exposure
 constexpr int kSpoiltFrames = 20;   // in a row
+constexpr int kStaleFrames = 100;   // beside those that an exposure lasts
 constexpr int kFramesUntilSet = 3;  // that a changed exposure may take to show
 constexpr std::uint32_t kCapture = V4L2_BUF_TYPE_VIDEO_CAPTURE;
 
@@ -234,8 +235,11 @@ std::optional<Image8> V4l2Camera::pictureOf(const v4l2_buffer& buffer) {
 
 Image8 V4l2Camera::shoot() {
   const auto asked = Clock::now();
+  // A long exposure outlasts many frames, and more where the driver names a slower rate than it has.
+  const double exposing = std::clamp(4 * exposure_ / period_.count(), 0.0, 1000.0);
+  int stale = kStaleFrames + static_cast<int>(exposing);
   int spoilt = 0;
-  for (int seen = 1; spoilt < kSpoiltFrames; ++seen) {
+  for (int seen = 1; spoilt < kSpoiltFrames && stale > 0; ++seen) {
     const v4l2_buffer buffer = takeBuffer();
     const bool fresh = isFresh(buffer, asked, seen) && seen > unset_;
     auto picture = fresh ? pictureOf(buffer) : std::nullopt;
@@ -244,7 +248,13 @@ Image8 V4l2Camera::shoot() {
       unset_ = 0;
       return std::move(*picture);
     }
-    if (fresh) ++spoilt;
+    spoilt += fresh ? 1 : 0;
+    stale -= fresh ? 0 : 1;
+  }
+  if (stale == 0) {
+    throw CameraError(source_ +
+                      ": its frames are all stamped with times before they were asked for: update its driver, or "
+                      "photograph by hand (--patterns DIR, --photos DIR)");
   }
   throw CameraError(source_ + ": " + trouble_ + ": try another cable or port, or fewer devices on it");
 }

@@ -108,6 +108,12 @@ TEST_F(V4l2CameraTest, WithoutUsableTimeStampsTheWholeQueueIsDropped) {
   EXPECT_GT(camera->shoot().at(0, 0), before + 1);
 }
 
+TEST_F(V4l2CameraTest, TimeStampsOfThePastAreNamed) {
+  const auto camera = open();
+  video_.now = realTime() - std::chrono::hours(1);
+  EXPECT_THAT(errorOf(*camera), AllOf(HasSubstr("v4l2:/dev/video9: "), HasSubstr("stamped with times before")));
+}
+
 TEST_F(V4l2CameraTest, DamagedFramesAreLeftOut) {
   const auto camera = open();
   video_.damaged = 8;
