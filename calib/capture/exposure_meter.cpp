@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "calib/capture/photographs.h"
@@ -16,6 +17,8 @@ constexpr int kBrightest = 233;  // above it single pixels may be clipped
 constexpr int kDarkest = 190;
 constexpr int kClipped = 250;  // says nothing about by how much
 constexpr int kTries = 12;
+constexpr double kSame = 0.99;   // of an exposure: what it is set to may differ by the camera's rounding
+constexpr double kLower = 0.85;  // less than a third of a stop, by which the exposures of still cameras differ
 
 devices::Image8 whiteOf(devices::Size size) {
   devices::Image8 white(size, 1);
@@ -77,17 +80,26 @@ double MeteredPerson::suitable(double start) {
   auto& control = *camera_.exposureControl();
   const auto range = control.exposureRange();
   double seconds = control.setExposure(start);
+  double tooBright = std::numeric_limits<double>::infinity();  // the shortest that is
   for (int i = 0; i < kTries; ++i) {
     const int peak = peakOf(camera_.shoot());
     if (peak >= kDarkest && peak <= kBrightest) return seconds;
     const double factor = peak >= kClipped ? 0.25 : std::min(8.0, double{kWanted} / std::max(peak, 1));
-    const double next = std::clamp(seconds * factor, range.shortest, range.longest);
-    if (next == seconds && peak > kBrightest) {
+    if (peak > kBrightest) tooBright = std::min(tooBright, seconds);
+    const double before = seconds;
+    double next = std::clamp(seconds * factor, range.shortest, range.longest);
+    seconds = control.setExposure(next);
+    // Exposures may come in steps, and the nearest be one that is known.
+    while (seconds > kSame * tooBright && next > range.shortest) {
+      next = std::max(kLower * next, range.shortest);
+      seconds = control.setExposure(next);
+    }
+    if (seconds > kSame * tooBright) {
       throw CaptureError(name_ + ": over-exposed even at its shortest exposure, " + std::to_string(seconds) +
                          " s: close its aperture, lower its gain, or put a grey filter before it");
     }
-    if (next == seconds) return seconds;  // darker than wanted; what that means is for those who look at photographs
-    seconds = control.setExposure(next);
+    // Darker than wanted; what that means is for those who look at photographs.
+    if (seconds >= kSame * before && kSame * seconds <= before) return seconds;
   }
   throw CaptureError(name_ +
                      ": no exposure suits: the light changes from one photograph to the next. Switch off what "

@@ -52,7 +52,12 @@ class Eye final : public devices::Camera, public devices::ExposureControl {
   [[nodiscard]] ExposureControl* exposureControl() override { return this; }
   [[nodiscard]] devices::ExposureRange exposureRange() const override { return range; }
   [[nodiscard]] double exposure() override { return seconds; }
-  double setExposure(double wanted) override { return seconds = std::clamp(wanted, range.shortest, range.longest); }
+  double setExposure(double wanted) override {
+    seconds = std::clamp(wanted, range.shortest, range.longest);
+    if (step > 0) seconds = std::exp2(step * std::round(std::log2(seconds) / step));
+    return seconds;
+  }
+  double step = 0;  // between exposures, in stops
   devices::ExposureRange range{.shortest = 1e-4, .longest = 10};
   double seconds = 0.01;
   double room = 0.001;
@@ -113,6 +118,46 @@ TEST(ExposureMeter, EachSceneIsMeasuredOnceAndKept) {
   EXPECT_EQ(eye.seconds, lit);
   EXPECT_EQ(eye.photographs, photographs);
   EXPECT_FALSE(person.arrange(Scene::kCheckerboard, 3));
+}
+
+TEST(ExposureMeter, ExposuresThatComeInStepsAreMeasuredToo) {
+  Image8 white({8, 6}, 1);
+  std::ranges::fill(white.samples(), std::uint8_t{255});
+  for (const double step : {1.0 / 3, 0.5, 1.0}) {
+    for (double brightness = 4; brightness < 9; brightness *= 1.02) {
+      Lamp lamp(brightness);
+      Eye eye({&lamp}, 1);
+      eye.step = step;
+      Helper helper(eye);
+      MeteredPerson person(helper, eye, {&lamp}, "camera");
+      ASSERT_TRUE(person.arrange(Scene::kDark, 0)) << step << ' ' << brightness;
+      lamp.show(white);
+      const int peak = peakOf(eye.shoot());
+      EXPECT_LE(peak, 233) << step << ' ' << brightness;
+      EXPECT_GE(peak, 233 / std::exp2(step) - 5) << step << ' ' << brightness;
+    }
+  }
+}
+
+TEST(ExposureMeter, RangesThatEndBetweenStepsEndMetering) {
+  Lamp lamp(1e6);
+  Eye eye({&lamp}, 1);
+  eye.step = 1.0 / 3;
+  Helper helper(eye);
+  MeteredPerson person(helper, eye, {&lamp}, "camera");
+  try {
+    (void)person.arrange(Scene::kDark, 0);
+    FAIL() << "over-exposed, and nobody said so";
+  } catch (const CaptureError& error) {
+    EXPECT_NE(std::string(error.what()).find("camera: over-exposed"), std::string::npos) << error.what();
+  }
+  Lamp faint(0.01);
+  Eye other({&faint}, 1);
+  other.step = 1.0 / 3;
+  Helper another(other);
+  MeteredPerson patient(another, other, {&faint}, "camera");
+  EXPECT_TRUE(patient.arrange(Scene::kDark, 0));
+  EXPECT_NEAR(other.seconds, other.range.longest, 2);
 }
 
 TEST(ExposureMeter, TooMuchLightIsAnErrorAndTooLittleThePhotographsMatter) {
