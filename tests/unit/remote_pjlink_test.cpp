@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -169,6 +170,22 @@ TEST_F(RemotePjlinkTest, MutesAndFreezesAllAndSaysSoAtOnce) {
   EXPECT_EQ(ask("%2FREZ 1"), "OK");
   EXPECT_EQ(ask("%2FREZ ?"), "1");
   ASSERT_TRUE(eventually([&] { return projector("p1.lamp").freeze && projector("p2.lamp").freeze; }));
+}
+
+TEST_F(RemotePjlinkTest, FilesThatCannotBeReadAreAnErrorOfTheProtocol) {
+  makePjlinkRoom(1);
+  const viewer::WallConsoleOptions looksOnce{.pollEvery = std::chrono::hours(1)};
+  console_.emplace(folder(), looksOnce);
+  (void)console_->savePreset("a");
+  ASSERT_TRUE(comes([](const auto& wall) { return !wall.jobs.back().running; }));
+  console_.emplace(folder(), looksOnce);
+  ASSERT_TRUE(comes([](const auto& wall) { return !wall.presets.empty(); }));
+  control_ =
+      std::make_unique<viewer::RemoteControl>(*console_, viewer::RemoteControlOptions{.pjlink = ListenAddress{}});
+  const auto loop = std::filesystem::path(folder()) / "presets" / "b.yaml";
+  std::filesystem::create_symlink(loop, loop);
+  EXPECT_EQ(ask("%1INPT 41"), "ERR3");
+  EXPECT_EQ(ask("%1CLSS ?"), "2") << "it goes on";
 }
 
 TEST_F(RemotePjlinkTest, PresetsAreItsInputs) {

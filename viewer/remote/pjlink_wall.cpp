@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
 
 #include "viewer/remote/pjlink_status.h"
 #include "viewer/remote/remote_error.h"
@@ -48,17 +49,23 @@ std::string errorOf(RemoteError::Kind kind) {
 }  // namespace
 
 std::string PjlinkWall::answer(char itsClass, std::string_view name, std::string_view value) {
+  try {
+    return obey(itsClass, name, value);
+  } catch (const RemoteError& error) {
+    return errorOf(error.kind());
+  } catch (const std::exception&) {
+    return kNotNow;  // as files that cannot be read
+  }
+}
+
+std::string PjlinkWall::obey(char itsClass, std::string_view name, std::string_view value) {
   const auto body = std::ranges::find(kBodies, name, &Body::name);
   if (body == kBodies.end() || body->classes.find(itsClass) == std::string_view::npos) return kUndefined;
   if (body->needsPower && isStandingBy()) return kNotNow;
   if (name == "INNM") return value.starts_with('?') ? inputName(value.substr(1)) : kOutOfParameter;
   if (value == "?") return get(itsClass, name);
   if (body->orders != "any" && !isAmong(body->orders, value)) return kOutOfParameter;
-  try {
-    return set(itsClass, name, value);
-  } catch (const RemoteError& error) {
-    return errorOf(error.kind());
-  }
+  return set(itsClass, name, value);
 }
 
 bool PjlinkWall::isStandingBy() const {

@@ -25,6 +25,7 @@ class PjlinkWall {
   [[nodiscard]] std::string answer(char itsClass, std::string_view body, std::string_view value);
 
  private:
+  [[nodiscard]] std::string obey(char itsClass, std::string_view name, std::string_view value);
   [[nodiscard]] std::string get(char itsClass, std::string_view body) const;
   [[nodiscard]] std::string getOfClass2(std::string_view body) const;
   [[nodiscard]] std::string set(char itsClass, std::string_view body, std::string_view value);
