@@ -53,6 +53,7 @@ struct RemoteControl::Parts {
 
   void servePjlink(const RemoteControlOptions& options) {
     const std::string hardware = hardwareAddress();
+    pjlink.reset();  // of the attempt before: it asks the wall
     pjlinkWall.emplace(remote, PjlinkIdentity{.name = options.name, .serial = hardware, .version = options.version});
     pjlink.emplace(loop, PjlinkServerOptions{.at = *options.pjlink, .password = options.pjlinkPassword},
                    [this](char itsClass, std::string_view body, std::string_view value) {
