@@ -160,6 +160,25 @@ TEST_F(WallConsoleTest, ADeadLineIsOneDeviceInWordsAndComesBack) {
   EXPECT_EQ(console.snapshot()->find("p1.mirror")->trouble, "");
 }
 
+TEST_F(WallConsoleTest, ForALostDeviceOnlySoManyCommandsWait) {
+  makeRoom(2, 20);
+  WallConsole console(folder(), kQuick);
+  ASSERT_TRUE(comes(console, allAreWell));
+  host_.order("p1.mirror", Fault::kSilent);
+  const auto giveTooMany = [&] {
+    for (int i = 0; i < 200; ++i) (void)console.device("p1.mirror", {i % 2 == 0 ? "pan=1" : "pan=2"});
+  };
+  EXPECT_THAT(giveTooMany,
+              ::testing::ThrowsMessage<std::runtime_error>(HasSubstr("p1.mirror: 100 commands wait for it already")));
+  const int both = console.device("p1.mirror,p2.mirror", {"pan_counts=100"});
+  ASSERT_TRUE(ends(console, console.device("p2.mirror", {"tilt_counts=0"})));
+  EXPECT_EQ(pan("p2.mirror").position, 100) << "nobody else is held up";
+  ASSERT_TRUE(ends(console, both));
+  EXPECT_THAT(console.snapshot()->find(both)->error, HasSubstr("p1.mirror: 100 commands wait"));
+  ASSERT_TRUE(ends(console, console.stopAll()));
+  EXPECT_NO_THROW((void)console.device("p1.mirror", {"pan=1"}));
+}
+
 TEST_F(WallConsoleTest, WhatADeviceRefusesIsSaidUntilSomethingGoesWell) {
   makeRoom(1, 20);
   WallConsole console(folder(), kQuick);

@@ -14,6 +14,8 @@ namespace {
 // Between two looks at a device that does not answer: its line has a patience of its own on top.
 constexpr std::chrono::seconds kLostPause{2};
 const std::string kStopped = "stopped on request";
+// A device that does not answer would gather them without end, and do them all when it is back.
+constexpr std::size_t kMostWaiting = 100;
 
 }  // namespace
 
@@ -48,10 +50,21 @@ void DeviceWorker::retire() {
 void DeviceWorker::give(DeviceTask task) {
   {
     const std::lock_guard lock(mutex_);
-    tasks_.push_back(std::move(task));
+    if (tasks_.size() < kMostWaiting) tasks_.push_back(std::exchange(task, {}));
   }
+  if (task.done) return task.done(refusal());
   showWaiting();
   wake_.notify_all();
+}
+
+bool DeviceWorker::isFull() {
+  const std::lock_guard lock(mutex_);
+  return tasks_.size() >= kMostWaiting;
+}
+
+std::string DeviceWorker::refusal() const {
+  return device_->name() + ": " + std::to_string(kMostWaiting) +
+         " commands wait for it already; stop all drops them (halt)";
 }
 
 void DeviceWorker::halt(std::function<void(const std::string& error)> done) {
@@ -96,8 +109,8 @@ void DeviceWorker::showWaiting() {
 void DeviceWorker::haltWhenAsked(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (wake_.wait(lock, stop, [this] { return !halts_.empty(); })) {
-    const auto done = std::move(halts_.front());
-    halts_.pop_front();
+    // One halt is as good as several.
+    const auto asked = std::exchange(halts_, {});
     lock.unlock();
     std::string error;
     try {
@@ -105,7 +118,7 @@ void DeviceWorker::haltWhenAsked(const std::stop_token& stop) {
     } catch (const std::exception& failure) {
       error = failure.what();
     }
-    done(error);
+    for (const auto& done : asked) done(error);
     lookAgain();
     lock.lock();
   }

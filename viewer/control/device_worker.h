@@ -40,7 +40,11 @@ class DeviceWorker {
   DeviceWorker(const DeviceWorker&) = delete;
   DeviceWorker& operator=(const DeviceWorker&) = delete;
 
+  /// A task that finds too many waiting is done at once, with an error that says so.
   void give(DeviceTask task);
+  /// So many wait that it takes no more, as refusal() says.
+  [[nodiscard]] bool isFull();
+  [[nodiscard]] std::string refusal() const;
   /// What waits is dropped, what is under way is stopped, and the device halts; at once, also in the midst of a move.
   /// `done` as a task's.
   void halt(std::function<void(const std::string& error)> done);
@@ -77,7 +81,7 @@ class DeviceWorker {
   std::mutex mutex_;
   std::condition_variable_any wake_;
   std::deque<DeviceTask> tasks_;
-  std::deque<std::function<void(const std::string& error)>> halts_;
+  std::vector<std::function<void(const std::string& error)>> halts_;
   std::stop_source running_;  // of the task under way
   bool look_ = true;
   bool lost_ = false;  // of the worker's own thread

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exception>
 #include <mutex>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -103,6 +104,17 @@ DeviceWorker* WallConsole::Parts::workerOf(const std::string& device) const {
   return found == devices.end() ? nullptr : workers.at(static_cast<std::size_t>(found - devices.begin())).get();
 }
 
+/// One device that is lost must not hold up the others: that of several is an error of the job.
+void WallConsole::Parts::requireRoom(const std::vector<DeviceJob>& jobs) const {
+  std::string refusals;
+  for (const auto& job : jobs) {
+    DeviceWorker* worker = workerOf(job.device.name);
+    if (worker == nullptr || !worker->isFull()) return;
+    refusals += (refusals.empty() ? "" : "\n") + worker->refusal();
+  }
+  if (!refusals.empty()) throw std::runtime_error(refusals);
+}
+
 void WallConsole::Parts::lookAgain() const {
   for (const auto& worker : workers) {
     if (worker) worker->lookAgain();
@@ -127,6 +139,7 @@ std::string WallConsole::commandLine(const std::string& program, const std::vect
 
 int WallConsole::device(const std::string& names, const std::vector<std::string>& steps) {
   const auto jobs = planDevices(parts_->devices, names, steps);
+  parts_->requireRoom(jobs);
   std::vector<std::string> words = {names};
   words.insert(words.end(), steps.begin(), steps.end());
   const int number = parts_->board.beginJob(Kind::kDevice, commandLine("device", words));

@@ -35,7 +35,7 @@ class WallConsole {
   // Each returns the number of its job.
 
   /// `names` and `steps` as planDevices() takes them; commands to one device are done one after the other. Throws
-  /// std::invalid_argument.
+  /// std::invalid_argument, and std::runtime_error when too many wait for each of the devices already.
   int device(const std::string& names, const std::vector<std::string>& steps);
   /// Every mirror halts at once, whatever it is doing; commands that wait are dropped, and presets are no longer
   /// restored.

@@ -26,6 +26,8 @@ struct WallConsole::Parts {
   Parts& operator=(const Parts&) = delete;
 
   [[nodiscard]] DeviceWorker* workerOf(const std::string& device) const;
+  /// Throws std::runtime_error when none of the jobs' devices takes one more.
+  void requireRoom(const std::vector<DeviceJob>& jobs) const;
   /// Speaks through the workers' devices.
   [[nodiscard]] PresetSession presetSession(const JobView& view);
   void lookAgain() const;
