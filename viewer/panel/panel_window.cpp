@@ -23,7 +23,6 @@ constexpr std::chrono::milliseconds kRest{600};
 PanelWindow::PanelWindow(devices::EventLoop& loop, const std::string& title, devices::Size size, float scale,
                          std::function<bool(const devices::KeyStroke& stroke)> shortcut)
     : window_(loop, {.title = title, .size = size, .paced = true}), shortcut_(std::move(shortcut)) {
-  ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
@@ -58,8 +57,19 @@ PanelWindow::PanelWindow(devices::EventLoop& loop, const std::string& title, dev
 }
 
 PanelWindow::~PanelWindow() {
-  window_.makeCurrent();
+  try {
+    window_.makeCurrent();
+  } catch (const devices::DisplayError&) {
+    // The context is gone and its objects with it; deleting their names is then without effect.
+  }
   ImGui_ImplOpenGL3_Shutdown();
+}
+
+PanelWindow::Toolkit::Toolkit() {
+  ImGui::CreateContext();
+}
+
+PanelWindow::Toolkit::~Toolkit() {
   ImGui::DestroyContext();
 }
 

@@ -32,10 +32,18 @@ class PanelWindow {
   [[nodiscard]] devices::Image8 picture();
 
  private:
+  /// The toolkit's own state.
+  struct Toolkit {
+    Toolkit();
+    ~Toolkit();
+    Toolkit(const Toolkit&) = delete;
+    Toolkit& operator=(const Toolkit&) = delete;
+  };
   void touch();
   void render();
 
   devices::Window window_;
+  Toolkit toolkit_;
   std::function<bool(const devices::KeyStroke& stroke)> shortcut_;
   PanelInput input_;
   std::chrono::steady_clock::time_point drawn_;
