@@ -13,6 +13,11 @@ class CameraView {
  public:
   explicit CameraView(CameraFeed& feed) : feed_(feed) {}
   void draw(PanelContext& panel);
+  /// While there is still a context.
+  void releaseGraphics() {
+    texture_ = {};
+    uploaded_ = 0;
+  }
 
  private:
   void upload(const CameraPicture& picture);

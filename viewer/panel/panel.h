@@ -28,6 +28,8 @@ class Panel {
   Panel(WallConsole& console, const PanelOptions& options);
 
   void draw();
+  /// Before the window's context goes.
+  void releaseGraphics() { camera_.releaseGraphics(); }
   /// Whether a key was one of the panel's own: F12 stops all, Alt with an arrow aims the chosen mirrors.
   bool shortcut(const devices::KeyStroke& stroke);
   /// Another one: there is something new to be drawn.

@@ -76,12 +76,25 @@ std::vector<calib::WallDevice> mirrorsOf(const std::string& folder) {
   return mirrors;
 }
 
+/// The panel outlives its window, but not what it has on the GPU.
+class PanelGraphics {
+ public:
+  explicit PanelGraphics(Panel& panel) : panel_(panel) {}
+  ~PanelGraphics() { panel_.releaseGraphics(); }
+  PanelGraphics(const PanelGraphics&) = delete;
+  PanelGraphics& operator=(const PanelGraphics&) = delete;
+
+ private:
+  Panel& panel_;
+};
+
 /// Until the window is closed, a signal comes or the screenshot is made.
 void runWindow(WallConsole& console, Panel& panel, const Options& options, const std::atomic<bool>& quit) {
   constexpr std::chrono::duration<double> kLook{0.03};
   devices::EventLoop loop;
   PanelWindow window(loop, "PixelFlex: " + options.wall, sizeOf(options.size), options.scale,
                      [&](const devices::KeyStroke& stroke) { return panel.shortcut(stroke); });
+  const PanelGraphics graphics(panel);
   FrameTimes times;
   Settled settled;
   std::uint64_t shown = 0;
