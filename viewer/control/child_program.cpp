@@ -13,6 +13,8 @@
 #include <cstddef>
 #include <system_error>
 
+#include "viewer/control/spawn_attributes.h"
+
 namespace pixelflex::viewer {
 namespace {
 
@@ -62,26 +64,6 @@ class LineStream {
   int readEnd_ = -1;
   int writeEnd_ = -1;
   std::string rest_;
-};
-
-/// Our own signals are blocked in every thread; a child shall hear its own.
-class SpawnAttributes {
- public:
-  SpawnAttributes() {
-    sigset_t none;
-    sigemptyset(&none);
-    ::posix_spawnattr_init(&attributes_);
-    ::posix_spawnattr_setsigmask(&attributes_, &none);
-    ::posix_spawnattr_setpgroup(&attributes_, 0);
-    ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
-  }
-  ~SpawnAttributes() { ::posix_spawnattr_destroy(&attributes_); }
-  SpawnAttributes(const SpawnAttributes&) = delete;
-  SpawnAttributes& operator=(const SpawnAttributes&) = delete;
-  [[nodiscard]] const posix_spawnattr_t* get() const { return &attributes_; }
-
- private:
-  posix_spawnattr_t attributes_{};
 };
 
 class SpawnFiles {

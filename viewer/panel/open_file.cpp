@@ -2,10 +2,14 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <string>
+
+#include "viewer/control/spawn_attributes.h"
 
 namespace pixelflex::viewer {
 
@@ -24,10 +28,15 @@ void openFile(WallConsole& console, const std::filesystem::path& file) {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     ::posix_spawn_file_actions_addopen(&actions, descriptor, "/dev/null", O_RDWR, 0);
   }
+  const SpawnAttributes attributes;
   pid_t child = 0;
-  const int error = ::posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
+  const int error = ::posix_spawnp(&child, program.c_str(), &actions, attributes.get(), arguments.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) console.log(LogLine::Kind::kError, "xdg-open cannot be run: open " + path + " in a browser");
+  if (error != 0) {
+    return console.log(LogLine::Kind::kError, "xdg-open cannot be run: open " + path + " in a browser");
+  }
+  // The one that forks ends at once.
+  while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) continue;
 }
 
 }  // namespace pixelflex::viewer
