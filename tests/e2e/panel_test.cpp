@@ -118,6 +118,10 @@ TEST_F(PanelTest, TestPicturesAppearOnTheOutputAndGo) {
   EXPECT_TRUE(comes([&] { return showsAt(1520, 120) == std::vector{20, 60, 120}; })) << log();
   press("picture-off");
   EXPECT_TRUE(comes([&] { return showsAt(1600, 200) == std::vector{0, 0, 0}; })) << log();
+  press("picture-green");
+  EXPECT_TRUE(comes([&] { return showsAt(1600, 200) == std::vector{0, 255, 0}; })) << log();
+  panel_->signal(SIGKILL);
+  EXPECT_TRUE(comes([&] { return showsAt(1600, 200) == std::vector{0, 0, 0}; })) << "none outlives the panel";
 }
 
 /// Three metres away, a picture of a pixel for each millimetre.

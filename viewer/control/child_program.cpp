@@ -11,6 +11,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstddef>
+#include <optional>
 #include <system_error>
 
 #include "viewer/control/spawn_attributes.h"
@@ -20,6 +21,23 @@ namespace {
 
 constexpr int kLookMs = 100;
 constexpr std::chrono::seconds kPatience{10};
+
+/// Ends when this process does.
+class LifeLine {
+ public:
+  LifeLine() {
+    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  }
+  ~LifeLine() {
+    for (const int end : ends_) ::close(end);
+  }
+  LifeLine(const LifeLine&) = delete;
+  LifeLine& operator=(const LifeLine&) = delete;
+  [[nodiscard]] int readEnd() const { return ends_[0]; }
+
+ private:
+  std::array<int, 2> ends_{};
+};
 
 /// One of the child's output streams, cut into lines.
 class LineStream {
@@ -68,9 +86,13 @@ class LineStream {
 
 class SpawnFiles {
  public:
-  SpawnFiles(int output, int errors) {
+  SpawnFiles(const std::optional<LifeLine>& input, int output, int errors) {
     ::posix_spawn_file_actions_init(&actions_);
-    ::posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    if (input) {
+      ::posix_spawn_file_actions_adddup2(&actions_, input->readEnd(), STDIN_FILENO);
+    } else {
+      ::posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    }
     ::posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
     ::posix_spawn_file_actions_adddup2(&actions_, errors, STDERR_FILENO);
   }
@@ -83,13 +105,13 @@ class SpawnFiles {
   posix_spawn_file_actions_t actions_{};
 };
 
-pid_t start(std::string program, std::vector<std::string> arguments, const LineStream& output,
-            const LineStream& errors) {
+pid_t start(std::string program, std::vector<std::string> arguments, const std::optional<LifeLine>& input,
+            const LineStream& output, const LineStream& errors) {
   std::vector<char*> all = {program.data()};
   for (auto& argument : arguments) all.push_back(argument.data());
   all.push_back(nullptr);
   const SpawnAttributes attributes;
-  const SpawnFiles files(output.writeEnd(), errors.writeEnd());
+  const SpawnFiles files(input, output.writeEnd(), errors.writeEnd());
   pid_t child = 0;
   const int error = ::posix_spawn(&child, program.c_str(), files.get(), attributes.get(), all.data(), environ);
   if (error != 0) throw std::system_error(error, std::generic_category(), program);
@@ -103,11 +125,13 @@ std::filesystem::path programsFolder() {
 }
 
 int runChildProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                    const std::stop_token& stop,
-                    const std::function<void(const std::string& text, bool isError)>& line) {
+                    const std::stop_token& stop, const std::function<void(const std::string& text, bool isError)>& line,
+                    ChildInput input) {
+  std::optional<LifeLine> life;
+  if (input == ChildInput::kOurLife) life.emplace();
   LineStream output;
   LineStream errors;
-  const pid_t child = start(program, arguments, output, errors);
+  const pid_t child = start(program, arguments, life, output, errors);
   output.closeWriteEnd();
   errors.closeWriteEnd();
   std::chrono::steady_clock::time_point asked{};

@@ -41,14 +41,15 @@ void TestPictures::showOne(PanelContext& panel, const calib::ProjectorConfig& pr
 }
 
 void TestPictures::startProgram(PanelContext& panel, Shown& shown, const std::string& projector) {
-  const std::vector<std::string> arguments = {panel.console.folder().string(), "--show", shown.picture, "--projectors",
-                                              projector};
+  const std::vector<std::string> arguments = {
+      panel.console.folder().string(), "--show", shown.picture, "--projectors", projector, "--until-eof"};
   shown.thread = std::jthread([&console = panel.console, program = programs_ / "pixelflex-panel", arguments,
                                ended = shown.ended](const std::stop_token& stop) {
     try {
-      (void)runChildProgram(program, arguments, stop, [&](const std::string& text, bool isError) {
+      const auto line = [&](const std::string& text, bool isError) {
         if (isError) console.log(LogLine::Kind::kError, text);
-      });
+      };
+      (void)runChildProgram(program, arguments, stop, line, ChildInput::kOurLife);
     } catch (const std::exception& error) {
       console.log(LogLine::Kind::kError, error.what());
     }

@@ -39,6 +39,7 @@ struct Options {
   std::string picture;
   std::string screenshot;
   std::string controls;
+  bool untilEof = false;
   bool stats = false;
 };
 
@@ -143,6 +144,8 @@ void defineOptions(CLI::App& app, Options& options) {
          "No panel: only show a test picture on --projectors, until Ctrl+C: off, name, grid, focus, white, red, "
          "green, blue")
       ->check(CLI::IsMember(pictures));
+  // For the panel itself, so that no picture outlives it.
+  app.add_flag("--until-eof", options.untilEof, "--show: until standard input ends, too")->group("");
   app.add_option("--screenshot", options.screenshot,
                  "Write what the panel shows to this PNG once all devices are known, and end");
   app.add_option("--controls", options.controls,
@@ -161,7 +164,7 @@ int run(const Options& options) {
   if (options.picture.empty()) {
     runPanel(options);
   } else {
-    showTestPicture(calib::loadWall(options.wall), options.projectors, options.picture);
+    showTestPicture(calib::loadWall(options.wall), options.projectors, options.picture, options.untilEof);
   }
   return 0;
 }

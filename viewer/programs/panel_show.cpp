@@ -1,7 +1,12 @@
 #include "viewer/programs/panel_show.h"
 
+#include <poll.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cerrno>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -40,9 +45,18 @@ glm::ivec2 placeOf(const devices::EventLoop& loop, const calib::Output& output) 
   return output.kind == OutputKind::kDisplay ? output.at : devices::findMonitor(loop, output.monitor).position;
 }
 
+bool inputEnds() {
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  if (::poll(&input, 1, 0) <= 0) return false;
+  std::array<char, 256> bytes{};
+  const ssize_t count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+  return count == 0 || (count < 0 && errno != EINTR && errno != EAGAIN);
+}
+
 }  // namespace
 
-void showTestPicture(const calib::Wall& wall, const std::vector<std::string>& names, const std::string& picture) {
+void showTestPicture(const calib::Wall& wall, const std::vector<std::string>& names, const std::string& picture,
+                     bool untilEof) {
   const auto projectors = chosen(wall, names);
   const auto display = displayOf(projectors.front());
   for (const auto& projector : projectors) {
@@ -63,7 +77,7 @@ void showTestPicture(const calib::Wall& wall, const std::vector<std::string>& na
         projector.name, loop, projector.resolution, placeOf(loop, projector.output)));
     window->show(drawTestPicture(picture, projector.name, projector.resolution));
   }
-  while (!over) loop.wait(std::chrono::seconds(1));
+  while (!over && !(untilEof && inputEnds())) loop.wait(std::chrono::seconds(1));
 }
 
 }  // namespace pixelflex::viewer
