@@ -73,7 +73,12 @@ class Outputs {
     if (!crtc) return 0;
     const std::uint32_t entries = entriesOf(*crtc);
     if (request.entries == 0 || request.entries != entries) return request.entries == 0 ? entries : 0;
-    if (!before_.contains(*crtc)) before_[*crtc] = read(*crtc);
+    if (!before_.contains(*crtc)) {
+      auto tables = read(*crtc);
+      // What could not be given back is not set.
+      if (tables.size() != 3 * std::size_t{entries}) return 0;
+      before_[*crtc] = std::move(tables);
+    }
     return write(*crtc, message.tables.data(), entries) ? entries : 0;
   }
 
@@ -159,7 +164,11 @@ GammaKeeper::GammaKeeper(std::optional<std::string> display) {
   }
   socket_ = ends[0];
   child_ = ::fork();
-  if (child_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
+  if (child_ < 0) {
+    const int error = errno;
+    for (const int end : ends) ::close(end);
+    throw std::system_error(error, std::generic_category(), "fork");
+  }
   if (child_ == 0) {
     ::close(ends[0]);
     keep(ends[1], display);
