@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "devices/display/gl_context.h"
 #include "tests/support/triangle_soups.h"
 #include "viewer/model/model_renderer.h"
+#include "viewer/model/picture_texture.h"
+#include "viewer/renderer/renderer_error.h"
 
 namespace pixelflex::viewer {
 namespace {
@@ -113,6 +116,17 @@ TEST_F(ModelMaterialTest, BothSidesAreLitAndShineWhereTheLampIsThrownBack) {
 TEST_F(ModelMaterialTest, EmissionIsThereWithoutAnyLamp) {
   expectLight(middle(shown({sceneOf(sheetAt(0, 1), {.colour = glm::vec3(0), .emission = {0.2F, 0.4F, 0}})})),
               {0.2, 0.4, 0});
+}
+
+TEST(ModelPicture, OneThatTheCardDoesNotTakeIsSaidInWords) {
+  const devices::HeadlessContext context;
+  try {
+    (void)pictureTexture(devices::Image8({70000, 1}, 4), false);
+    FAIL() << "is drawn black";
+  } catch (const RendererError& error) {
+    EXPECT_NE(std::string(error.what()).find("70000x1 pixels"), std::string::npos) << error.what();
+  }
+  EXPECT_NO_THROW((void)pictureTexture(devices::Image8({7, 1}, 4), false));
 }
 
 }  // namespace

@@ -1,11 +1,14 @@
 #include "viewer/model/picture_texture.h"
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+
+#include "viewer/renderer/renderer_error.h"
 
 namespace pixelflex::viewer {
 namespace {
@@ -37,6 +40,7 @@ void weight(devices::Image8& picture) {
 devices::GlTexture pictureTexture(devices::Image8 picture, bool weighted) {
   const bool four = picture.channels() == 4;
   if (four && weighted) weight(picture);
+  while (glGetError() != GL_NO_ERROR) continue;  // an old error must not be taken for this picture's
   auto texture = devices::GlTexture::create(GL_TEXTURE_2D);
   const auto longest = static_cast<unsigned>(std::max(picture.width(), picture.height()));
   const auto levels = static_cast<GLsizei>(std::bit_width(longest));
@@ -45,6 +49,14 @@ devices::GlTexture pictureTexture(devices::Image8 picture, bool weighted) {
   glTextureSubImage2D(texture.get(), 0, 0, 0, picture.width(), picture.height(), four ? GL_RGBA : GL_RGB,
                       GL_UNSIGNED_BYTE, picture.samples().data());
   glGenerateTextureMipmap(texture.get());
+  if (glGetError() != GL_NO_ERROR) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    throw RendererError(
+        fmt::format("the graphics card does not take the model's picture of {}x{} pixels: it has too little memory, or "
+                    "a side is longer than {}",
+                    picture.width(), picture.height(), most));
+  }
   glTextureParameteri(texture.get(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTextureParameteri(texture.get(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   return texture;
