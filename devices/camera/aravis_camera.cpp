@@ -6,8 +6,11 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -28,6 +31,13 @@ struct Unref {
 };
 template <class Object>
 using Held = std::unique_ptr<Object, Unref>;
+
+struct GiveBack {
+  ArvStream* stream;
+  void operator()(ArvBuffer* buffer) const { arv_stream_push_buffer(stream, buffer); }
+};
+/// A buffer taken from its stream.
+using Taken = std::unique_ptr<ArvBuffer, GiveBack>;
 
 /// Receives a GError; throws it as one of ours, or is asked whether there was one.
 class Failure {
@@ -282,7 +292,12 @@ std::optional<Image8> AravisCamera::pictureOf(ArvBuffer* buffer) {
   if (size != size_ || arv_buffer_get_image_pixel_format(buffer) != format_.code) {
     throw CameraError(source_ + ": a frame of another size or pixel format than was asked for: start again");
   }
-  return developed({.layout = format_.layout, .size = size, .bytes = std::span(data, bytes)});
+  try {
+    return developed({.layout = format_.layout, .size = size, .bytes = std::span(data, bytes)});
+  } catch (const std::runtime_error& error) {
+    trouble_ = std::string("its frames are damaged: ") + error.what();
+    return std::nullopt;
+  }
 }
 
 /// None when a frame was spoilt or does not come.
@@ -291,12 +306,10 @@ std::optional<Image8> AravisCamera::nextFrame(gint64 notBefore) {
   for (gint64 now = g_get_monotonic_time(); now < end; now = g_get_monotonic_time()) {
     checkPresent();
     const auto patience = static_cast<guint64>(std::min<gint64>(end - now, 500000));
-    ArvBuffer* buffer = arv_stream_timeout_pop_buffer(stream_.get(), patience);
-    if (buffer == nullptr) continue;
-    const bool stale = static_cast<gint64>(arv_buffer_get_system_timestamp(buffer) / 1000) < notBefore;
-    auto picture = stale ? std::nullopt : pictureOf(buffer);
-    arv_stream_push_buffer(stream_.get(), buffer);
-    if (!stale) return picture;
+    const Taken buffer(arv_stream_timeout_pop_buffer(stream_.get(), patience), {stream_.get()});
+    if (!buffer) continue;
+    const bool stale = static_cast<gint64>(arv_buffer_get_system_timestamp(buffer.get()) / 1000) < notBefore;
+    if (!stale) return pictureOf(buffer.get());
   }
   trouble_ = "no frame comes";
   return std::nullopt;
