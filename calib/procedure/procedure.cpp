@@ -1,6 +1,8 @@
 #include "calib/procedure/procedure.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <stdexcept>
 #include <utility>
 
 #include "calib/patterns/blob_pattern.h"
@@ -92,7 +94,24 @@ Method Procedure::chooseMethod() const {
   return dense ? Method::kDense : Method::kBlobs;
 }
 
+bool Procedure::canBeRead(const std::optional<std::string>& picture) const try {
+  return !picture || devices::readPng16(folder_ / *picture).size().area() > 0;
+} catch (const std::runtime_error&) {
+  return false;
+}
+
+/// The pictures that the step has written are there, whatever somebody did to them since.
+bool Procedure::keepsItsPictures(const std::string& step) const {
+  return std::ranges::all_of(calibration_.projectors, [&](const ProjectorCalibration& projector) {
+    if (step == "blend") return canBeRead(projector.alpha);
+    if (step != "gamma") return true;
+    const bool hasResponse = !projector.response || std::filesystem::is_regular_file(folder_ / *projector.response);
+    return hasResponse && (!projector.light || (canBeRead(projector.light->gain) && canBeRead(projector.light->black)));
+  });
+}
+
 bool Procedure::stale(const std::string& step) const {
+  if (!keepsItsPictures(step)) return true;
   const auto found = calibration_.steps.find(step);
   return found == calibration_.steps.end() || found->second != fingerprint(step);
 }

@@ -56,6 +56,8 @@ class Procedure {
 
   [[nodiscard]] std::string fingerprint(const std::string& step) const;
   [[nodiscard]] std::string measureStamp(const std::string& kind) const;
+  [[nodiscard]] bool canBeRead(const std::optional<std::string>& picture) const;
+  [[nodiscard]] bool keepsItsPictures(const std::string& step) const;
   [[nodiscard]] bool stale(const std::string& step) const;
   [[nodiscard]] Photographs& photographs(const std::string& step) const;
   /// What earlier steps measured; throw ProcedureError when they have not run.

@@ -137,11 +137,20 @@ void changeNudges(const fs::path& folder, const Wall& wall, const Arguments& arg
   saveNudges(folder, nudges);
 }
 
+/// What was measured before; with --all a damaged file does not matter.
+Calibration earlierCalibration(const fs::path& folder, bool all) try {
+  return hasCalibration(folder) ? loadCalibration(folder) : Calibration{};
+} catch (const StoreError& error) {
+  if (all) return {};
+  throw std::runtime_error(std::string(error.what()) + "; pixelflex calibrate " + folder.string() +
+                           " --all measures the wall anew");
+}
+
 void runProcedure(const fs::path& folder, const Wall& wall, const Arguments& arguments) {
   std::unique_ptr<PhotographSource> source;
   if (needsPhotographs(wall, arguments)) source = openSource(folder, wall, arguments.photos, true);
   ConsoleProgress progress(arguments.progress);
-  Procedure procedure(folder, wall, hasCalibration(folder) ? loadCalibration(folder) : Calibration{},
+  Procedure procedure(folder, wall, earlierCalibration(folder, arguments.all),
                       source ? &source->photographs() : nullptr, progress);
   const auto ran = procedure.run({.steps = arguments.steps,
                                   .force = arguments.all,

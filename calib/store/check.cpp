@@ -2,7 +2,9 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
+#include "calib/store/preset.h"
 #include "calib/store/readings_file.h"
 #include "calib/store/store.h"
 #include "calib/store/yaml_reader.h"
@@ -42,11 +44,13 @@ class Checker {
     if (exists(node)) collect(problems_, [&] { append(problems_, checkReadings(folder_ / node.text())); });
   }
 
-  void checkMaskAt(const Node& node, devices::Size resolution) {
-    if (!exists(node)) return;
+  /// Without a resolution it may be any.
+  void checkMaskAt(const Node& node, const std::optional<devices::Size>& wanted) {
+    if (!node.defined() || !exists(node)) return;
     const std::filesystem::path path = folder_ / node.text();
     collect(problems_, [&] {
       const devices::Image16 mask = devices::readPng16(path);
+      const devices::Size resolution = wanted.value_or(mask.size());
       if (!(mask.size() == resolution)) {
         addFile(path, "the mask is " + text(mask.size()) + ", its projector " + text(resolution));
       }
@@ -145,6 +149,10 @@ void checkCalibrationFiles(const std::filesystem::path& folder, const Calibratio
     const auto& projector = calibration.projectors[i];
     checker.checkMaskAt(list.at(i).optional("alpha"), projector.resolution);
     checker.checkReadingsAt(list.at(i).optional("response"));
+    if (projector.light) {
+      checker.checkMaskAt(list.at(i).optional("light").optional("gain"), std::nullopt);
+      checker.checkMaskAt(list.at(i).optional("light").optional("black"), projector.resolution);
+    }
     if (wall) checkAgreement(list.at(i), projector, *wall);
   }
   for (std::size_t i = 0; wall && i < wall->projectors.size(); ++i) {
@@ -156,6 +164,19 @@ void checkCalibrationFiles(const std::filesystem::path& folder, const Calibratio
   append(problems, reader.problems());
 }
 
+void checkPresets(const std::filesystem::path& folder, Problems& problems) {
+  std::vector<std::string> names;
+  collect(problems, [&] { names = presetNames(folder); });
+  for (const auto& name : names) {
+    collect(problems, [&] {
+      const Preset preset = loadPreset(folder, name);
+      if (!preset.calibration || hasCalibration(folder / *preset.calibration)) return;
+      problems.push_back({(folder / "presets" / (name + ".yaml")).string(), 0, 0,
+                          "its calibration " + *preset.calibration + " is gone: save the preset again, or delete it"});
+    });
+  }
+}
+
 }  // namespace
 
 std::vector<Problem> checkWall(const std::filesystem::path& folder) {
@@ -165,6 +186,7 @@ std::vector<Problem> checkWall(const std::filesystem::path& folder) {
     wall = loadWall(folder);
     checkWallFiles(folder, *wall, problems);
   });
+  checkPresets(folder, problems);
   if (!hasCalibration(folder)) return problems;
   collect(problems, [&] { checkCalibrationFiles(folder, loadCalibration(folder), wall, problems); });
   return problems;

@@ -106,6 +106,26 @@ TEST_F(RepairTest, ANudgeSurvivesRecalibrationUntilCleared) {
   EXPECT_FALSE(fs::exists(wall() / "nudge.yaml"));
 }
 
+// The viewer, which needs the pictures, sends people here.
+TEST_F(RepairTest, PicturesThatAreGoneOrDamagedAreMadeAgain) {
+  fs::remove(wall() / "calibration/p1-gain.png");
+  fs::resize_file(wall() / "calibration/p2-alpha.png", 100);
+  EXPECT_EQ(runProgram("check", {wall().string()}).status, 1);
+  const Output run = calibrate({});
+  EXPECT_EQ(run.status, 0) << run.text;
+  EXPECT_THAT(run.text, ::testing::Not(HasSubstr("nothing has changed")));
+  EXPECT_EQ(runProgram("check", {wall().string()}).status, 0);
+}
+
+TEST_F(RepairTest, ADamagedCalibrationIsMeasuredAnew) {
+  fs::resize_file(wall() / "calibration.yaml", 300);
+  const Output run = calibrate({});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.text, HasSubstr("--all measures the wall anew"));
+  EXPECT_EQ(calibrate({"--all"}).status, 0);
+  EXPECT_EQ(runProgram("check", {wall().string()}).status, 0);
+}
+
 TEST_F(RepairTest, ANudgeThatIsNoneIsRefused) {
   for (const auto* text : {"p1", "p1:x", "p1:z=3", "p1:x=abc", "p1:tl=3", "p9:x=1"}) {
     const Output run = calibrate({"--nudge", text});

@@ -47,6 +47,28 @@ class PresetCliTest : public DeviceRoomTest {
   }
 };
 
+TEST_F(PresetCliTest, SavingAgainForgetsNoDeviceThatIsDead) {
+  makeRoom(1, 20);
+  ASSERT_EQ(device({"p1", "pan_counts=300", "brightness=70"}).status, 0);
+  ASSERT_EQ(preset({"save", "day"}).status, 0);
+  const calib::Preset before = calib::loadPreset(folder(), "day");
+  host_.order("p1.control", Fault::kCut);
+  ASSERT_EQ(device({"p1.mirror", "pan_counts=200"}).status, 0);
+  const Output again = preset({"save", "day"});
+  EXPECT_EQ(again.status, 1);
+  EXPECT_THAT(again.text, HasSubstr("day has of these devices what it had before"));
+  const calib::Preset after = calib::loadPreset(folder(), "day");
+  ASSERT_EQ(after.devices.size(), 2U);
+  EXPECT_THAT(after.devices, ::testing::Contains(before.devices[0]));
+  EXPECT_THAT(after.devices, Not(::testing::Contains(before.devices[1])));
+  host_.order("p1.mirror", Fault::kCut);
+  const Output dead = preset({"save", "day"});
+  EXPECT_EQ(dead.status, 1);
+  EXPECT_THAT(dead.text, HasSubstr("no device could be read, so day was not saved"));
+  EXPECT_EQ(calib::loadPreset(folder(), "day"), after);
+  EXPECT_THAT(preset({"restore", "day", "--dry-run"}).text, HasSubstr("of these devices nothing is known"));
+}
+
 TEST_F(PresetCliTest, ComesBackToWhatWasSaved) {
   makeRoom(2, 20);
   calibrate(1000);

@@ -128,6 +128,23 @@ calib::Preset PresetSession::capture() {
   return preset;
 }
 
+calib::Preset PresetSession::captureAs(const std::string& name) {
+  calib::Preset preset = capture();
+  const auto failed = [](const PresetOutcome& outcome) { return !outcome.error.empty(); };
+  if (!outcomes_.empty() && std::ranges::all_of(outcomes_, failed)) {
+    throw std::runtime_error("no device could be read, so " + name + " was not saved; " + outcomes_.front().error);
+  }
+  if (std::ranges::none_of(outcomes_, failed)) return preset;
+  const auto known = calib::presetNames(folder_);
+  if (std::ranges::find(known, name) == known.end()) return preset;
+  const calib::Preset earlier = calib::loadPreset(folder_, name);
+  for (const auto& device : earlier.devices) {
+    const auto outcome = std::ranges::find(outcomes_, device.name, &PresetOutcome::device);
+    if (outcome != outcomes_.end() && failed(*outcome)) preset.devices.push_back(device);
+  }
+  return preset;
+}
+
 std::vector<PresetStep> PresetSession::prepare(const calib::Preset& preset) {
   DeviceValues now;
   std::vector<Member*> wanted;

@@ -50,6 +50,9 @@ class PresetSession {
   /// What the devices are set to and the calibration. Those that could not be read are missing in it, and outcomes()
   /// says why.
   [[nodiscard]] calib::Preset capture();
+  /// The same for a preset that there may be already: devices that could not be read keep what it had of them. Throws
+  /// std::runtime_error when none could.
+  [[nodiscard]] calib::Preset captureAs(const std::string& name);
   /// Reads what `preset` speaks of; the plan.
   [[nodiscard]] std::vector<PresetStep> prepare(const calib::Preset& preset);
   /// Stage after stage. A device that fails is left alone from then on; after a stop request only those are unmuted

@@ -93,7 +93,7 @@ int WallConsole::savePreset(const std::string& name) {
   return parts_->longJob.start(Kind::kPreset, commandLine("preset", {"save", name}), [this, name](const JobView& view) {
     view.tell("reading all devices");
     PresetSession session = parts_->presetSession(view);
-    const calib::Preset preset = session.capture();
+    const calib::Preset preset = session.captureAs(name);
     calib::savePreset(folder_, name, preset);
     view.say(name + ": " + std::to_string(preset.devices.size()) + " devices" +
              (preset.calibration ? " and the calibration" : ", no calibration"));

@@ -63,12 +63,12 @@ int complain(const std::vector<PresetOutcome>& outcomes) {
 
 int save(const PresetOptions& options, PresetSession& session) {
   calib::checkPresetName(options.name);
-  const calib::Preset preset = session.capture();
+  const calib::Preset preset = session.captureAs(options.name);
   const int status = complain(session.outcomes());
   calib::savePreset(options.wall, options.name, preset);
   fmt::print("{}: {} devices{}\n", options.name, preset.devices.size(),
              preset.calibration ? " and the calibration" : ", no calibration");
-  if (status != 0) fmt::print(stderr, "pixelflex-preset: {} was saved without these devices\n", options.name);
+  if (status != 0) fmt::print(stderr, "pixelflex-preset: {} has of these devices what it had before\n", options.name);
   return status;
 }
 
@@ -121,8 +121,10 @@ int restore(const PresetOptions& options, PresetSession& session) {
   const bool calibrates = preset.calibration && !calib::isCalibrationInUse(options.wall, *preset.calibration);
   if (options.dryRun) {
     printPlan(plan, calibrates);
-    if (plan.empty() && !calibrates) fmt::print("all is as {} has it\n", options.name);
-    return complain(session.outcomes());
+    const int status = complain(session.outcomes());
+    if (plan.empty() && !calibrates && status == 0) fmt::print("all is as {} has it\n", options.name);
+    if (status != 0) fmt::print("of these devices nothing is known\n");
+    return status;
   }
   session.restore(preset, plan, [](PresetStage stage) {
     fmt::print("{}\n", nameOf(stage));
