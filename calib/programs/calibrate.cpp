@@ -10,6 +10,8 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -182,6 +184,8 @@ void calibrate(const Arguments& arguments) {
   if (!arguments.patterns.empty()) return writePatternFolder(wall, arguments);
   if (wall.isFlat()) return calibrateFlat(folder, wall);
   requireProjectors(wall, "--skip", arguments.skip);
+  const std::set<std::string> skipped(arguments.skip.begin(), arguments.skip.end());
+  if (skipped.size() == wall.projectors.size()) throw std::runtime_error("--skip: no projector is left to calibrate");
   requireProjectors(wall, "--only", arguments.only);
   if (arguments.recalibrate) return recalibrate(folder, wall, arguments);
   if (arguments.check) return (void)check(folder, wall, arguments);

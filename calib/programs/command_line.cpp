@@ -43,4 +43,17 @@ int runCommand(CLI::App& app, const std::function<void()>& parse, const std::fun
   }
 }
 
+void takeOneOf(CLI::Option* option, const std::map<std::string, int>& words) {
+  const auto turn = [words](std::string& text) {
+    if (const auto found = words.find(text); found != words.end()) {
+      text = std::to_string(found->second);
+      return std::string();
+    }
+    std::string known;
+    for (const auto& [word, number] : words) known += (known.empty() ? "" : ", ") + word;
+    return "\"" + text + "\" is none of " + known;
+  };
+  option->transform(CLI::Validator(turn, ""));
+}
+
 }  // namespace pixelflex::calib

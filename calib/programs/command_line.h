@@ -1,10 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <string>
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace pixelflex::calib {
 
@@ -15,5 +18,14 @@ constexpr int kWrongUsage = 2;
 /// throws CLI::ParseError, as App::parse does, or std::invalid_argument when what was given is no use. Says what is
 /// wrong as "pixelflex-NAME: …" on standard error. Returns the exit status.
 [[nodiscard]] int runCommand(CLI::App& app, const std::function<void()>& parse, const std::function<int()>& run);
+
+/// The option takes one of these words, and its variable, an enumeration, the word's meaning.
+void takeOneOf(CLI::Option* option, const std::map<std::string, int>& words);
+template <class Meaning>
+void takeOneOf(CLI::Option* option, const std::map<std::string, Meaning>& words) {
+  std::map<std::string, int> numbers;
+  for (const auto& [word, meaning] : words) numbers.emplace(word, static_cast<int>(meaning));
+  takeOneOf(option, numbers);
+}
 
 }  // namespace pixelflex::calib

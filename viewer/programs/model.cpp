@@ -41,27 +41,31 @@ void addDrawing(CLI::App& app, ModelCommand& command, Texts& texts) {
          "as any desktop")
       ->check(CLI::IsMember({1, 2}))
       ->capture_default_str();
-  app.add_option("--fit", command.draw.features,
-                 "features that the matrix of one pass is fitted to: all, or the four corners; else all")
-      ->transform(CLI::CheckedTransformer(kFeatures))
-      ->option_text("all|corners");
+  calib::takeOneOf(
+      app.add_option("--fit", command.draw.features,
+                     "features that the matrix of one pass is fitted to: all, or the four corners; else all")
+          ->option_text("all|corners"),
+      kFeatures);
   app.add_option("--lens", texts.lens,
                  "vertex: one pass makes up for the lens at each corner of a triangle, right where triangles are small")
       ->check(CLI::IsMember({"none", "vertex"}))
       ->capture_default_str();
-  app.add_option("--lut", command.lookUp,
-                 "where windows of one pass look up a projector's codes: in its output's own gamma ramp (RandR), which "
-                 "is given back at the end, or in a last pass; else in the ramp where there is one")
-      ->transform(CLI::CheckedTransformer(kLookUps))
-      ->option_text("auto|ramp|pass");
+  calib::takeOneOf(
+      app.add_option(
+             "--lut", command.lookUp,
+             "where windows of one pass look up a projector's codes: in its output's own gamma ramp (RandR), which "
+             "is given back at the end, or in a last pass; else in the ramp where there is one")
+          ->option_text("auto|ramp|pass"),
+      kLookUps);
   app.add_option("--samples", command.draw.model.samples, "of each pixel, to smooth edges; 1: they are not")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
-  app.add_option(
-         "--stereo", command.stereo,
-         "desktop.png and the preview with both eyes' pictures; a wall with stack: left-right shows them itself")
-      ->transform(CLI::CheckedTransformer(kStereo))
-      ->option_text("off|side-by-side|anaglyph");
+  calib::takeOneOf(
+      app.add_option(
+             "--stereo", command.stereo,
+             "desktop.png and the preview with both eyes' pictures; a wall with stack: left-right shows them itself")
+          ->option_text("off|side-by-side|anaglyph"),
+      kStereo);
 }
 
 void addView(CLI::App& app, ModelCommand& command, Texts& texts) {

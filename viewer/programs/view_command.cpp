@@ -5,6 +5,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "calib/programs/command_line.h"
 #include "viewer/vnc/known_servers.h"
 #include "viewer/x11/x_display.h"
 
@@ -40,18 +41,20 @@ void addPicture(CLI::App& app, ViewOptions& options, ViewTexts& texts) {
       ->check(CLI::Range(0, 3'600'000))
       ->capture_default_str();
   app.add_option("--projectors", options.projectors, "only these projectors")->delimiter(',');
-  app.add_option("--fit", options.fit.fit,
-                 "a desktop of another size than the wall's: letterbox keeps its aspect, stretch fills the wall; else "
-                 "letterbox")
-      ->transform(CLI::CheckedTransformer(kFits))
-      ->option_text("letterbox|stretch");
+  calib::takeOneOf(
+      app.add_option(
+             "--fit", options.fit.fit,
+             "a desktop of another size than the wall's: letterbox keeps its aspect, stretch fills the wall; else "
+             "letterbox")
+          ->option_text("letterbox|stretch"),
+      kFits);
   app.add_option("--region", texts.region, "show only this part of the desktop: X,Y,WIDTHxHEIGHT, desktop pixels");
-  app.add_option(
-         "--source", options.source,
-         "auto: straight from the X server of this machine when the VNC server is Xvnc, thus one and the same, it lets "
-         "us in and nothing is wished for that only VNC has; else vnc, as SERVER says")
-      ->transform(CLI::CheckedTransformer(kSources))
-      ->option_text("auto|vnc");
+  calib::takeOneOf(app.add_option("--source", options.source,
+                                  "auto: straight from the X server of this machine when the VNC server is Xvnc, thus "
+                                  "one and the same, it lets "
+                                  "us in and nothing is wished for that only VNC has; else vnc, as SERVER says")
+                       ->option_text("auto|vnc"),
+                   kSources);
   app.add_flag("--resize", texts.resize,
                "ask the server for a desktop of the wall's own size, and again after a new calibration");
   app.add_option("--screens", texts.screens,
@@ -62,13 +65,15 @@ void addPicture(CLI::App& app, ViewOptions& options, ViewTexts& texts) {
 
 void addInput(CLI::App& app, ViewOptions& options, ViewTexts& texts) {
   app.add_flag("--view-only", options.viewOnly, "send neither pointer nor keys nor clipboard");
-  app.add_option(
-         "--pointer", options.pointer,
-         "desktop: the mouse moves over the desktop wherever the windows are, Ctrl+Alt+G lets it go; screen: over "
-         "the windows as they lie; auto: screen where they lie as on the wall. Ctrl twice, or shaking it, shows where "
-         "it is")
-      ->transform(CLI::CheckedTransformer(kPointerModes))
-      ->option_text("auto|desktop|screen");
+  calib::takeOneOf(
+      app.add_option(
+             "--pointer", options.pointer,
+             "desktop: the mouse moves over the desktop wherever the windows are, Ctrl+Alt+G lets it go; screen: over "
+             "the windows as they lie; auto: screen where they lie as on the wall. Ctrl twice, or shaking it, shows "
+             "where "
+             "it is")
+          ->option_text("auto|desktop|screen"),
+      kPointerModes);
   app.add_flag("--grab", options.grab,
                "all keys go to the desktop, the window manager's shortcuts too; Ctrl+Alt+G lets keyboard and pointer "
                "go and takes them, also without this")
@@ -98,12 +103,13 @@ void addConnection(CLI::App& app, ViewOptions& options, ViewTexts& texts) {
       ->capture_default_str();
   app.add_option("--tls-ca", options.security.caFile, "PEM file with the only authorities to trust");
   app.add_option("--tls-fingerprint", options.security.fingerprint, "SHA-256 of the only certificate to trust");
-  app.add_option(
-         "--link", options.link,
-         "what to spend on the way to the server: local (every pixel as it is), lan, wifi or wan (JPEG, ever more "
-         "compressed); auto: local within this machine, else as measured")
-      ->transform(CLI::CheckedTransformer(kLinks))
-      ->option_text("auto|local|lan|wifi|wan");
+  calib::takeOneOf(
+      app.add_option(
+             "--link", options.link,
+             "what to spend on the way to the server: local (every pixel as it is), lan, wifi or wan (JPEG, ever more "
+             "compressed); auto: local within this machine, else as measured")
+          ->option_text("auto|local|lan|wifi|wan"),
+      kLinks);
   app.add_flag("--lossless", options.lossless, "no JPEG over any link: every pixel arrives as it is");
 }
 
@@ -112,16 +118,18 @@ void addRest(CLI::App& app, ViewOptions& options, ViewTexts& texts) {
                  "bits for each colour that the projectors are sent, 8 or 10; with 10 their screenshots are 16-bit PNG")
       ->check(CLI::IsMember({8, 10}))
       ->capture_default_str();
-  app.add_option(
-         "--retry", options.retry,
-         "whether to wait for a server that is gone: lost, once it was there; always, also at the start; never. "
-         "never is usual with --screenshot, else lost")
-      ->transform(CLI::CheckedTransformer(kRetries))
-      ->option_text("lost|always|never");
-  app.add_option("--when-lost", options.whenLost,
-                 "the last picture of a server that is gone: dim, mark (with a sign) or keep as it is; else dim")
-      ->transform(CLI::CheckedTransformer(kWhenLost))
-      ->option_text("dim|mark|keep");
+  calib::takeOneOf(
+      app.add_option(
+             "--retry", options.retry,
+             "whether to wait for a server that is gone: lost, once it was there; always, also at the start; never. "
+             "never is usual with --screenshot, else lost")
+          ->option_text("lost|always|never"),
+      kRetries);
+  calib::takeOneOf(
+      app.add_option("--when-lost", options.whenLost,
+                     "the last picture of a server that is gone: dim, mark (with a sign) or keep as it is; else dim")
+          ->option_text("dim|mark|keep"),
+      kWhenLost);
   app.add_flag("--stats{log}", texts.stats,
                "print when the first picture is there, what was uploaded and drawn each second, and each ten how long "
                "every stage "
