@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 
 #include "calib/store/preset.h"
@@ -167,6 +169,21 @@ TEST_F(PanelTest, CalibratesAtAButton) {
   EXPECT_TRUE(comes([&] { return std::filesystem::exists(folder() + "/report.html"); })) << log();
   press("tab-map");
   EXPECT_NO_THROW((void)find("footprint-p1"));
+}
+
+TEST_F(PanelTest, WhatOpensTheReportHearsItsOwnSignals) {
+  makeRoom(1);
+  std::ofstream(folder() + "/report.html") << "a report";
+  const auto opener = folder_ / "xdg-open";
+  const std::string blocked = (folder_ / "blocked").string();
+  // Other shells unblock what they find blocked.
+  std::ofstream(opener) << "#!/bin/bash\ngrep SigBlk /proc/self/status > " << blocked << "\n";
+  std::filesystem::permissions(opener, std::filesystem::perms::owner_all);
+  startPanel({"--tab", "calibration", "--projectors", "p1"},
+             {"PATH=" + opener.parent_path().string() + ":" + std::getenv("PATH")});
+  waitForSettings();
+  press("open-report");
+  EXPECT_TRUE(comes([&] { return textOf(blocked) == "SigBlk:\t0000000000000000\n"; })) << textOf(blocked) << log();
 }
 
 TEST_F(PanelTest, ShowsWhatTheCameraSees) {

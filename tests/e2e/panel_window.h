@@ -27,12 +27,12 @@ class PanelTest : public DeviceRoomTest {
     double x = 0, y = 0, width = 0, height = 0;
   };
 
-  void startPanel(std::vector<std::string> more = {}) {
+  void startPanel(std::vector<std::string> more = {}, std::vector<std::string> environment = {}) {
     std::vector<std::string> command = {std::string(PIXELFLEX_BIN_DIR) + "/pixelflex-panel", folder(), "--controls",
                                         controlsFile()};
     command.insert(command.end(), more.begin(), more.end());
-    panel_ = std::make_unique<Process>(
-        command, ProcessOptions{.environment = {"DISPLAY=" + screen_.display()}, .log = folder_ / "log"});
+    environment.push_back("DISPLAY=" + screen_.display());
+    panel_ = std::make_unique<Process>(command, ProcessOptions{.environment = environment, .log = folder_ / "log"});
   }
 
   /// As they are now.
