@@ -188,6 +188,14 @@ TEST_F(WallConsoleTest, WhatADeviceRefusesIsSaidUntilSomethingGoesWell) {
   EXPECT_THAT(console.snapshot()->find("p1.mirror")->trouble, HasSubstr("pan=170"));
   ASSERT_TRUE(ends(console, console.device("p1.mirror", {"pan=10"})));
   EXPECT_EQ(console.snapshot()->find("p1.mirror")->trouble, "");
+  ASSERT_TRUE(ends(console, console.device("p1.mirror", {"pan=170"})));
+  EXPECT_NE(console.snapshot()->find("p1.mirror")->trouble, "");
+  ASSERT_TRUE(ends(console, console.stopAll()));
+  EXPECT_EQ(console.snapshot()->find("p1.mirror")->trouble, "");
+  ASSERT_TRUE(ends(console, console.savePreset("here")));
+  ASSERT_TRUE(ends(console, console.device("p1.mirror", {"pan=170"})));
+  ASSERT_TRUE(ends(console, console.restorePreset("here", false)));
+  EXPECT_EQ(console.snapshot()->find("p1.mirror")->trouble, "");
 }
 
 TEST_F(WallConsoleTest, SavesPlansRestoresAndDeletesPresets) {

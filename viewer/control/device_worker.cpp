@@ -115,6 +115,7 @@ void DeviceWorker::haltWhenAsked(const std::stop_token& stop) {
     std::string error;
     try {
       device_->halt();
+      succeeded();
     } catch (const std::exception& failure) {
       error = failure.what();
     }

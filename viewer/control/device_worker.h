@@ -55,6 +55,9 @@ class DeviceWorker {
 
   [[nodiscard]] const std::shared_ptr<devices::Device>& device() const { return device_; }
 
+  /// It has done what somebody else asked of device(): what it refused before is no trouble any more. Any thread.
+  void succeeded();
+
  private:
   void work(const std::stop_token& stop);
   void haltWhenAsked(const std::stop_token& stop);
@@ -69,7 +72,6 @@ class DeviceWorker {
   void show(const Reading& reading, bool whole);
   [[nodiscard]] bool hasTasks();
   [[nodiscard]] std::vector<DeviceTask> dropTasks();
-  void succeeded();
   void failed(const std::string& why);
   void showWaiting();
 

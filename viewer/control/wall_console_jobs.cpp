@@ -133,7 +133,11 @@ int WallConsole::restorePreset(const std::string& name, bool verify) {
       view.tell(std::string(nameOf(stage)), 1.0 * static_cast<int>(stage) / static_cast<int>(kPresetStages.size()));
     });
     int changed = 0;
-    for (const auto& outcome : session.outcomes()) changed += outcome.changed;
+    for (const auto& outcome : session.outcomes()) {
+      changed += outcome.changed;
+      DeviceWorker* worker = outcome.error.empty() ? parts_->workerOf(outcome.device) : nullptr;
+      if (worker != nullptr) worker->succeeded();
+    }
     view.say(name + ": " + std::to_string(changed) + " settings changed");
     parts_->lookAgain();
     parts_->watch.lookAgain();

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -160,6 +161,14 @@ void defineOptions(CLI::App& app, Options& options) {
       "Mirrors halt when the panel ends, however it ends.");
 }
 
+void requireProjectors(const Options& options) {
+  const auto known = calib::loadWall(options.wall).projectors;
+  for (const auto& name : options.projectors) {
+    if (std::ranges::find(known, name, &calib::ProjectorConfig::name) != known.end()) continue;
+    throw std::invalid_argument("--projectors: wall.yaml has no projector " + name);
+  }
+}
+
 int run(const Options& options) {
   if (options.picture.empty()) {
     runPanel(options);
@@ -181,6 +190,7 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     (void)viewer::sizeOf(options.size);
     if (!options.picture.empty() && options.projectors.empty()) throw CLI::RequiredError("--projectors");
+    viewer::requireProjectors(options);
   };
   return calib::runCommand(app, parse, [&] { return viewer::run(options); });
 }
