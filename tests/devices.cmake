@@ -52,5 +52,5 @@ pixelflex_test(served_room_test LABEL e2e TIMEOUT 600
 add_dependencies(served_room_test pixelflex-new pixelflex-calibrate pixelflex-camera pixelflex-device pixelflex-preset pixelflex-simulate)
 
 pixelflex_test(camera_test LABEL unit
-  SOURCES unit/v4l2_camera_test.cpp unit/still_camera_test.cpp unit/raw_picture_test.cpp support_devices/fake_video.h
+  SOURCES unit/v4l2_camera_test.cpp unit/still_camera_test.cpp unit/raw_picture_test.cpp support_devices/fake_video.h support_image/jpeg.cpp support_image/jpeg.h
   LINK pixelflex_cameras JPEG::JPEG)

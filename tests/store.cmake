@@ -7,7 +7,7 @@ pixelflex_test(store_test LABEL unit TIMEOUT 240
   LINK pixelflex_store pixelflex_image store_entry)
 
 pixelflex_test(image_test LABEL unit
-  SOURCES unit/image_png_test.cpp unit/image_photo_test.cpp unit/image_atomic_test.cpp support/temporary_folder.cpp
+  SOURCES unit/image_png_test.cpp unit/image_photo_test.cpp unit/image_atomic_test.cpp support/temporary_folder.cpp support_image/jpeg.cpp support_image/jpeg.h
   LINK pixelflex_image PNG::PNG JPEG::JPEG ZLIB::ZLIB)
 
 # A fuzzer for the readers of the store, by clang++ (preset fuzz): ./store_fuzz CORPUS -max_total_time=60

@@ -17,7 +17,7 @@ target_link_libraries(vnc_entry PRIVATE pixelflex_options PUBLIC pixelflex_vnc)
 
 pixelflex_test(vnc_test LABEL unit TIMEOUT 120
   SOURCES unit/vnc_address_test.cpp unit/vnc_clipboard_test.cpp unit/vnc_corpus_test.cpp unit/vnc_failure_test.cpp unit/vnc_hostile_cases_test.cpp
-    unit/vnc_hostile_test.cpp unit/vnc_jpeg_test.cpp unit/vnc_link_test.cpp unit/vnc_pieces_test.cpp unit/vnc_plain_login_test.cpp unit/vnc_reconnect_test.cpp unit/vnc_resize_test.cpp unit/vnc_security_test.cpp unit/vnc_secret_test.cpp unit/vnc_session_test.cpp support/memory_search.cpp support/memory_search.h support/tls_server.cpp support/tls_server.h
+    unit/vnc_hostile_test.cpp unit/vnc_jpeg_test.cpp unit/vnc_link_test.cpp unit/vnc_pieces_test.cpp unit/vnc_plain_login_test.cpp unit/vnc_reconnect_test.cpp unit/vnc_resize_test.cpp unit/vnc_security_test.cpp unit/vnc_secret_test.cpp unit/vnc_session_test.cpp support/memory_search.cpp support/memory_search.h support/tls_server.cpp support/tls_server.h support_image/jpeg.cpp support_image/jpeg.h
   LINK pixelflex_test_support vnc_entry PkgConfig::GNUTLS JPEG::JPEG ZLIB::ZLIB)
 
 # What a server may say, by clang++ (preset fuzz): ./vnc_fuzz CORPUS -max_total_time=60

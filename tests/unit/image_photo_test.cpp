@@ -1,12 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
-// jpeglib.h needs FILE and size_t declared before it.
-#include <jpeglib.h>
-
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -19,6 +14,7 @@
 #include "devices/image/photo_file.h"
 #include "devices/image/png_file.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support_image/jpeg.h"
 
 namespace pixelflex::testing {
 namespace {
@@ -43,32 +39,9 @@ Image8 gradient(devices::Size size, int channels) {
   return image;
 }
 
-/// A JPEG file of an image with one or three channels.
-std::string jpegOf(const Image8& image) {
-  jpeg_compress_struct info{};
-  jpeg_error_mgr errors{};
-  info.err = jpeg_std_error(&errors);
-  jpeg_create_compress(&info);
-  unsigned char* buffer = nullptr;
-  unsigned long length = 0;
-  jpeg_mem_dest(&info, &buffer, &length);
-  info.image_width = static_cast<JDIMENSION>(image.width());
-  info.image_height = static_cast<JDIMENSION>(image.height());
-  info.input_components = image.channels();
-  info.in_color_space = image.channels() == 1 ? JCS_GRAYSCALE : JCS_RGB;
-  jpeg_set_defaults(&info);
-  jpeg_set_quality(&info, 98, TRUE);
-  jpeg_start_compress(&info, TRUE);
-  for (int y = 0; y < image.height(); ++y) {
-    std::vector<JSAMPLE> row(image.row(y).begin(), image.row(y).end());
-    JSAMPROW pointer = row.data();
-    jpeg_write_scanlines(&info, &pointer, 1);
-  }
-  jpeg_finish_compress(&info);
-  const std::string bytes(reinterpret_cast<const char*>(buffer), length);
-  jpeg_destroy_compress(&info);
-  std::free(buffer);
-  return bytes;
+std::string jpegFile(const Image8& image) {
+  const auto bytes = jpegOf(image);
+  return {bytes.begin(), bytes.end()};
 }
 
 class ImagePhoto : public ::testing::Test {
@@ -82,7 +55,7 @@ class ImagePhoto : public ::testing::Test {
 
 TEST_F(ImagePhoto, ReadsAJpegByItsContent) {
   const Image8 image = gradient({128, 96}, 3);
-  write(jpegOf(image));
+  write(jpegFile(image));
   const Image8 photo = readPhoto(path());
   ASSERT_EQ(photo.size(), image.size());
   ASSERT_EQ(photo.channels(), 3);
@@ -91,7 +64,7 @@ TEST_F(ImagePhoto, ReadsAJpegByItsContent) {
 
 TEST_F(ImagePhoto, SpreadsAGreyJpeg) {
   const Image8 image = gradient({64, 32}, 1);
-  write(jpegOf(image));
+  write(jpegFile(image));
   const Image8 photo = readPhoto(path());
   ASSERT_EQ(photo.channels(), 3);
   for (int x = 0; x < 64; ++x) {
@@ -116,7 +89,7 @@ TEST_F(ImagePhoto, ReadsEveryKindOfPngAsThreeChannels) {
 }
 
 TEST_F(ImagePhoto, ATruncatedJpegIsAnErrorWhereverItEnds) {
-  const std::string bytes = jpegOf(gradient({128, 96}, 3));
+  const std::string bytes = jpegFile(gradient({128, 96}, 3));
   for (std::size_t part = 0; part < 16; ++part) {
     write(bytes.substr(0, bytes.size() * part / 16));
     EXPECT_THAT([&] { (void)readPhoto(path()); }, ThrowsMessage<ImageError>(HasSubstr(path().string()))) << part;
@@ -126,7 +99,7 @@ TEST_F(ImagePhoto, ATruncatedJpegIsAnErrorWhereverItEnds) {
 }
 
 TEST_F(ImagePhoto, ADamagedJpegIsAnErrorOrAnImageButNothingWorse) {
-  const std::string good = jpegOf(gradient({128, 96}, 3));
+  const std::string good = jpegFile(gradient({128, 96}, 3));
   std::mt19937 random(6);
   for (int round = 0; round < 400; ++round) {
     std::string bytes = good;
@@ -141,7 +114,7 @@ TEST_F(ImagePhoto, ADamagedJpegIsAnErrorOrAnImageButNothingWorse) {
 }
 
 TEST_F(ImagePhoto, AJpegThatPromisesTooMuchIsRefused) {
-  std::string bytes = jpegOf(gradient({16, 16}, 3));
+  std::string bytes = jpegFile(gradient({16, 16}, 3));
   const std::size_t frame = bytes.find("\xff\xc0");
   ASSERT_NE(frame, std::string::npos);
   bytes.replace(frame + 5, 4, "\xff\xff\xff\xff");
@@ -202,7 +175,7 @@ class ExposureTimeTest : public ::testing::Test {
     std::ofstream(file, std::ios::binary) << bytes;
     return devices::exposureTime(file);
   }
-  const std::string jpeg_ = jpegOf(gradient({16, 16}, 3));
+  const std::string jpeg_ = jpegFile(gradient({16, 16}, 3));
   TemporaryFolder folder_;
 };
 

@@ -5,11 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
-// jpeglib.h needs FILE and size_t declared before it.
-#include <jpeglib.h>
-
-#include <cstdlib>
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <set>
@@ -18,6 +14,7 @@
 
 #include "devices/camera/camera_error.h"
 #include "devices/camera/cameras.h"
+#include "tests/support_image/jpeg.h"
 
 namespace pixelflex::testing {
 namespace {
@@ -29,27 +26,9 @@ using ::testing::HasSubstr;
 
 /// A JPEG of one grey.
 std::vector<std::uint8_t> greyJpeg(Size size, int code) {
-  jpeg_compress_struct info{};
-  jpeg_error_mgr errors{};
-  info.err = jpeg_std_error(&errors);
-  jpeg_create_compress(&info);
-  unsigned char* bytes = nullptr;
-  unsigned long count = 0;
-  jpeg_mem_dest(&info, &bytes, &count);
-  info.image_width = static_cast<JDIMENSION>(size.width);
-  info.image_height = static_cast<JDIMENSION>(size.height);
-  info.input_components = 1;
-  info.in_color_space = JCS_GRAYSCALE;
-  jpeg_set_defaults(&info);
-  jpeg_start_compress(&info, TRUE);
-  std::vector<JSAMPLE> line(static_cast<std::size_t>(size.width), static_cast<JSAMPLE>(code));
-  JSAMPROW row = line.data();
-  while (info.next_scanline < info.image_height) jpeg_write_scanlines(&info, &row, 1);
-  jpeg_finish_compress(&info);
-  jpeg_destroy_compress(&info);
-  std::vector<std::uint8_t> jpeg(bytes, bytes + count);
-  std::free(bytes);
-  return jpeg;
+  devices::Image8 image(size, 1);
+  std::ranges::fill(image.samples(), static_cast<std::uint8_t>(code));
+  return testing::jpegOf(image);
 }
 
 /// Settings as a Canon has them.

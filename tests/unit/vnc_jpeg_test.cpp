@@ -2,14 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <vector>
-// Needs <cstdio> before it.
-#include <jpeglib.h>
 
 #include "tests/support/desktop_mirror.h"
 #include "tests/support/fake_vnc_server.h"
+#include "tests/support_image/jpeg.h"
 #include "viewer/vnc/jpeg_rect.h"
 #include "viewer/vnc/jpeg_workers.h"
 #include "viewer/vnc/rfb_messages.h"
@@ -30,31 +27,13 @@ std::uint8_t sample(int x, int y, int channel) {
 
 // A smooth picture, or a shifted one, encoded as servers do.
 std::vector<std::uint8_t> encoded(devices::Size size, int shift = 0) {
-  jpeg_error_mgr errors{};
-  jpeg_compress_struct encoder{};
-  encoder.err = jpeg_std_error(&errors);
-  jpeg_create_compress(&encoder);
-  unsigned char* bytes = nullptr;
-  unsigned long count = 0;
-  jpeg_mem_dest(&encoder, &bytes, &count);
-  encoder.image_width = static_cast<JDIMENSION>(size.width);
-  encoder.image_height = static_cast<JDIMENSION>(size.height);
-  encoder.input_components = 3;
-  encoder.in_color_space = JCS_RGB;
-  jpeg_set_defaults(&encoder);
-  jpeg_set_quality(&encoder, 98, TRUE);
-  jpeg_start_compress(&encoder, TRUE);
+  devices::Image8 image(size, 3);
   for (int y = 0; y < size.height; ++y) {
-    std::vector<std::uint8_t> row;
-    for (int i = 0; i < 3 * size.width; ++i) row.push_back(sample(i / 3 + shift, y, i % 3));
-    JSAMPROW pointer = row.data();
-    jpeg_write_scanlines(&encoder, &pointer, 1);
+    for (int x = 0; x < size.width; ++x) {
+      for (int c = 0; c < 3; ++c) image.at(x, y, c) = sample(x + shift, y, c);
+    }
   }
-  jpeg_finish_compress(&encoder);
-  jpeg_destroy_compress(&encoder);
-  std::vector<std::uint8_t> jpeg(bytes, bytes + count);
-  std::free(bytes);
-  return jpeg;
+  return pixelflex::testing::jpegOf(image);
 }
 
 TEST(JpegRect, WritesItsRowsAndNothingElse) {
