@@ -28,7 +28,8 @@ void TestPictures::end(const std::string& projector) {
 
 void TestPictures::showOne(PanelContext& panel, const calib::ProjectorConfig& projector, const std::string& picture) {
   end(projector.name);
-  const bool simulated = projector.output.kind == calib::OutputKind::kSim;
+  // With another camera the room is served by another program, which looks at what --show puts there.
+  const bool simulated = projector.output.kind == calib::OutputKind::kSim && panel.wall->wall->camera.source == "sim";
   if (simulated) inRoom_(projector.name, drawTestPicture(picture, projector.name, projector.resolution));
   if (projector.output.kind == calib::OutputKind::kNone) {
     panel.console.log(LogLine::Kind::kNote, projector.name + ": wall.yaml gives it no output, so nothing can be shown");

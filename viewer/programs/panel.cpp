@@ -173,7 +173,7 @@ int run(const Options& options) {
   if (options.picture.empty()) {
     runPanel(options);
   } else {
-    showTestPicture(calib::loadWall(options.wall), options.projectors, options.picture, options.untilEof);
+    showTestPicture(options.wall, options.projectors, options.picture, options.untilEof);
   }
   return 0;
 }
